@@ -1,0 +1,61 @@
+//! Resources of the mesh that is being worked on.
+
+use std::sync::Arc;
+
+use bevy_ecs::prelude::*;
+use glam::DVec3;
+use seamline_mesh::{Mesh, Topology};
+
+use crate::stage::{Stage, StepError};
+
+/// The welded mesh as it was read, in the file's unit.
+#[derive(Resource, Clone)]
+pub struct InputMesh(pub Arc<Mesh>);
+
+/// Edges and neighbours. While the mesh is enriched, those of the enriched mesh.
+#[derive(Resource, Default)]
+pub struct MeshTopology(pub Topology);
+
+/// From the file's coordinates `p` to scaled ones: `(p - centre) / length`.
+#[derive(Resource, Clone, Copy, Debug, PartialEq)]
+pub struct MeshScale {
+    /// What becomes the origin, in the file's unit.
+    pub centre: DVec3,
+    /// What becomes 1, in the file's unit; never zero.
+    pub length: f64,
+}
+
+/// The first failure of a step, if any: the stages after it are skipped.
+#[derive(Resource, Default)]
+pub struct JobFailure(pub Option<StepError>);
+
+/// Numbers the steps have to tell, for the report: sharp edges, clusters, regions grown, ...
+#[derive(Resource, Default)]
+pub struct Counts(Vec<(Stage, &'static str, u64)>);
+
+impl Counts {
+    /// Notes one number; a second one under the same name replaces the first.
+    pub fn note(&mut self, stage: Stage, name: &'static str, value: usize) {
+        match self
+            .0
+            .iter_mut()
+            .find(|(s, n, _)| *s == stage && *n == name)
+        {
+            Some(known) => known.2 = value as u64,
+            None => self.0.push((stage, name, value as u64)),
+        }
+    }
+
+    /// What a stage noted, in the order noted.
+    pub fn of(&self, stage: Stage) -> impl Iterator<Item = (&'static str, u64)> {
+        self.0
+            .iter()
+            .filter(move |(s, ..)| *s == stage)
+            .map(|&(_, name, value)| (name, value))
+    }
+
+    /// Forgets everything.
+    pub fn clear(&mut self) {
+        self.0.clear();
+    }
+}

@@ -1,0 +1,29 @@
+//! A mesh as a world of entities, and the stages it passes through.
+//!
+//! Vertices, faces, edges, curvature samples, regions and patches are entities; what is known of them are
+//! components ([`components`]). Every step is a system in a [`Stage`]; a [`Worker`] owns one world and one
+//! schedule and sends mesh after mesh through them. Which plugin fills the swappable stages is looked up
+//! by name in a [`Registry`].
+//!
+//! Two rules keep this at the speed of plain arrays (measured; see ARCHITECTURE.md):
+//! systems lend whole columns to their kernels as slices ([`Column`], [`ColumnMut`]), and rows are recycled
+//! from mesh to mesh ([`rows`]).
+
+mod column;
+pub mod components;
+mod job;
+mod pipeline;
+mod plugin;
+pub mod results;
+pub mod rows;
+pub mod settings;
+mod stage;
+mod worker;
+
+pub use column::{Column, ColumnMut};
+pub use job::{Counts, InputMesh, JobFailure, MeshScale, MeshTopology};
+pub use pipeline::{BuiltinSteps, InstallStep, Pipeline, PipelineSettings, tables};
+pub use plugin::{PluginEntry, Registry, StagePlugin, SwappableStage};
+pub use results::Segmentation;
+pub use stage::{Stage, StageSystems, StepError, fallible};
+pub use worker::{StageError, Worker};

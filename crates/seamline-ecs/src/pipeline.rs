@@ -1,0 +1,166 @@
+//! A pipeline put together: which steps run, under which settings.
+
+use std::sync::Arc;
+
+use bevy_ecs::prelude::*;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use toml::{Table, Value};
+
+use crate::plugin::{PluginEntry, Registry, SwappableStage};
+use crate::settings::{self, Profile, SettingsError, SettingsTable, StepSettings};
+
+/// Puts systems into a schedule and their settings into its world.
+pub type InstallStep = Arc<dyn Fn(&mut World, &mut Schedule) + Send + Sync>;
+
+/// The `[pipeline]` table: which profile, which plugins.
+#[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct PipelineSettings {
+    /// The set of defaults: `cad` or `lavoue2005`.
+    pub profile: Profile,
+    /// The plugin that gives each curvature sample a cluster; empty: the first registered.
+    pub classifier: String,
+    /// The plugin that cleans the boundaries, or `none`; empty: the first registered.
+    pub rectifier: String,
+    /// Threads used on one mesh; 0: all there are. Results do not depend on it.
+    pub threads: usize,
+}
+
+impl StepSettings for PipelineSettings {
+    const TABLE: &'static str = "pipeline";
+
+    fn defaults(profile: Profile) -> Self {
+        Self {
+            profile,
+            classifier: String::new(),
+            rectifier: String::new(),
+            threads: 0,
+        }
+    }
+}
+
+/// The built-in steps: their tables of settings, and how they are installed under the settings in force.
+pub struct BuiltinSteps {
+    /// One a step.
+    pub tables: Vec<SettingsTable>,
+    /// Reads the tables in force and gives what installs the steps.
+    pub install: fn(&Table) -> Result<InstallStep, SettingsError>,
+}
+
+/// Everything a worker needs to know, ready to be shared by all of them.
+#[derive(Clone)]
+pub struct Pipeline {
+    install: Vec<InstallStep>,
+    in_force: Table,
+    threads: usize,
+}
+
+impl Pipeline {
+    /// Puts a pipeline together from the built-in steps, the registered plugins and what is `given` of
+    /// their settings (tables as in the configuration).
+    ///
+    /// Errors: unknown tables, keys and plugin names, each with the nearest known one; values of the wrong
+    /// kind or out of range.
+    pub fn assemble(
+        builtin: &BuiltinSteps,
+        registry: &Registry,
+        given: &Table,
+    ) -> Result<Self, SettingsError> {
+        let chosen_profile = profile(given)?;
+        let mut in_force = settings::resolve(&tables(builtin, registry), chosen_profile, given)?;
+        let mut pipeline: PipelineSettings = settings::read(&in_force)?;
+
+        let classifier = choose(registry, SwappableStage::Classify, &mut pipeline.classifier)?;
+        let rectifier = choose(registry, SwappableStage::Rectify, &mut pipeline.rectifier)?;
+        let chosen: Vec<_> = classifier.into_iter().chain(rectifier).collect();
+
+        let mut install = vec![(builtin.install)(&in_force)?];
+        for entry in &chosen {
+            install.push(install_plugin(entry, &in_force)?);
+        }
+
+        for idle in registry
+            .entries()
+            .iter()
+            .filter(|e| chosen.iter().all(|c| c.name != e.name))
+        {
+            in_force.remove(idle.name);
+        }
+        let threads = pipeline.threads;
+        let mut said = Table::try_from(pipeline).expect("settings are tables of plain values");
+        said.remove("threads");
+        in_force.insert(PipelineSettings::TABLE.to_owned(), Value::Table(said));
+        Ok(Self {
+            install,
+            in_force,
+            threads,
+        })
+    }
+
+    /// The settings in force, every default written out: what the results depend on, and no more (the
+    /// number of threads is not among them).
+    pub fn settings_in_force(&self) -> &Table {
+        &self.in_force
+    }
+
+    /// Threads used on one mesh; 0: all there are.
+    pub fn threads(&self) -> usize {
+        self.threads
+    }
+
+    pub(crate) fn install(&self, world: &mut World, schedule: &mut Schedule) {
+        for step in &self.install {
+            step(world, schedule);
+        }
+    }
+}
+
+/// Every table a configuration may hold for the pipeline.
+pub fn tables(builtin: &BuiltinSteps, registry: &Registry) -> Vec<SettingsTable> {
+    let plugins = registry.entries().iter().map(|entry| entry.settings);
+    [SettingsTable::of::<PipelineSettings>()]
+        .into_iter()
+        .chain(builtin.tables.iter().copied())
+        .chain(plugins)
+        .collect()
+}
+
+/// The profile decides the defaults, so it is read before anything else.
+fn profile(given: &Table) -> Result<Profile, SettingsError> {
+    let named = given
+        .get(PipelineSettings::TABLE)
+        .and_then(|table| table.get("profile"));
+    named.map_or(Ok(Profile::default()), |name| {
+        name.clone().try_into().map_err(|_| {
+            let found = name
+                .as_str()
+                .map_or_else(|| name.to_string(), str::to_owned);
+            SettingsError::unknown("pipeline.profile", "profile", &found, ["cad", "lavoue2005"])
+        })
+    })
+}
+
+fn choose<'a>(
+    registry: &'a Registry,
+    stage: SwappableStage,
+    name: &mut String,
+) -> Result<Option<&'a PluginEntry>, SettingsError> {
+    if stage == SwappableStage::Rectify && name == "none" {
+        return Ok(None);
+    }
+    let entry = match name.as_str() {
+        "" => registry.default_of(stage),
+        name => Some(registry.find(stage, name)?),
+    };
+    *name = entry.map_or("none", |entry| entry.name).to_owned();
+    Ok(entry)
+}
+
+fn install_plugin(entry: &PluginEntry, in_force: &Table) -> Result<InstallStep, SettingsError> {
+    let make = (entry.systems)(in_force)?;
+    let stage = entry.stage.stage();
+    Ok(Arc::new(move |_: &mut World, schedule: &mut Schedule| {
+        schedule.add_systems(make().in_set(stage));
+    }))
+}

@@ -1,0 +1,154 @@
+//! One world and one schedule, through which mesh after mesh passes.
+
+use std::sync::Arc;
+use std::time::Instant;
+
+use bevy_ecs::prelude::*;
+use bevy_ecs::schedule::SingleThreadedExecutor;
+use rayon::{ThreadPool, ThreadPoolBuilder};
+use seamline_mesh::Mesh;
+use thiserror::Error;
+
+use crate::job::{Counts, InputMesh, JobFailure, MeshTopology};
+use crate::pipeline::Pipeline;
+use crate::results::{Segmentation, StageRecord};
+use crate::stage::Stage;
+
+/// Why a mesh gave no patches. It ends the job; the worker goes on with the next mesh.
+#[derive(Clone, Debug, Error, PartialEq, Eq)]
+#[error("{}: {message}", .stage.name())]
+pub struct StageError {
+    /// Where it happened.
+    pub stage: Stage,
+    /// What went wrong, in one line.
+    pub message: String,
+    /// What would be right.
+    pub hint: String,
+}
+
+/// Sends meshes through a pipeline, one at a time. Keeps its rows from mesh to mesh; a mesh of less than
+/// half the rows gets a fresh world, so that one giant does not hold its memory for ever.
+pub struct Worker {
+    pipeline: Arc<Pipeline>,
+    world: World,
+    schedule: Schedule,
+    rows: usize,
+    pool: Option<ThreadPool>,
+}
+
+/// Times each stage, and notes in which one a job failed.
+#[derive(Resource)]
+struct StageClock {
+    last: Instant,
+    seconds: [f64; Stage::ALL.len()],
+    failed_in: Option<Stage>,
+}
+
+impl Worker {
+    /// A worker for `pipeline`, with no rows yet.
+    pub fn new(pipeline: Arc<Pipeline>) -> Self {
+        let pool = (pipeline.threads() > 0)
+            .then(|| {
+                ThreadPoolBuilder::new()
+                    .num_threads(pipeline.threads())
+                    .build()
+            })
+            .and_then(Result::ok);
+        let (world, schedule) = fresh(&pipeline);
+        Self {
+            pipeline,
+            world,
+            schedule,
+            rows: 0,
+            pool,
+        }
+    }
+
+    /// Cuts one mesh into patches.
+    ///
+    /// Errors: the failure of a step, with its stage.
+    pub fn segment(&mut self, mesh: Arc<Mesh>) -> Result<Segmentation, StageError> {
+        let rows = mesh.triangles.len();
+        if rows < self.rows / 2 {
+            (self.world, self.schedule) = fresh(&self.pipeline);
+        }
+        self.rows = rows;
+
+        self.world.insert_resource(InputMesh(mesh));
+        self.world.insert_resource(JobFailure::default());
+        self.world.resource_mut::<Counts>().clear();
+        let clock = StageClock {
+            last: Instant::now(),
+            seconds: [0.0; Stage::ALL.len()],
+            failed_in: None,
+        };
+        self.world.insert_resource(clock);
+
+        let (world, schedule) = (&mut self.world, &mut self.schedule);
+        match &self.pool {
+            Some(pool) => pool.install(|| schedule.run(world)),
+            None => schedule.run(world),
+        }
+        self.world.remove_resource::<InputMesh>();
+        self.collect()
+    }
+
+    /// The world, to look at what the last mesh left in it.
+    pub fn world_mut(&mut self) -> &mut World {
+        &mut self.world
+    }
+
+    fn collect(&mut self) -> Result<Segmentation, StageError> {
+        let finished = self.world.remove_resource::<Segmentation>();
+        let clock = self.world.resource::<StageClock>();
+        if let Some(error) = &self.world.resource::<JobFailure>().0 {
+            let stage = clock.failed_in.unwrap_or(Stage::Export);
+            return Err(StageError {
+                stage,
+                message: error.message.clone(),
+                hint: error.hint.clone(),
+            });
+        }
+        let mut segmentation = finished.ok_or_else(|| StageError {
+            stage: Stage::Export,
+            message: "no step gave a result".to_owned(),
+            hint: "the pipeline lacks its built-in steps".to_owned(),
+        })?;
+        let counts = self.world.resource::<Counts>();
+        segmentation.stages = Stage::ALL
+            .into_iter()
+            .map(|stage| StageRecord {
+                stage,
+                seconds: clock.seconds[stage as usize],
+                counts: counts.of(stage).collect(),
+            })
+            .collect();
+        Ok(segmentation)
+    }
+}
+
+fn fresh(pipeline: &Pipeline) -> (World, Schedule) {
+    let mut world = World::new();
+    world.init_resource::<MeshTopology>();
+    world.init_resource::<Counts>();
+
+    let mut schedule = Schedule::default();
+    schedule.set_executor(SingleThreadedExecutor::new());
+    for stage in Stage::ALL {
+        schedule.configure_sets(stage.run_if(|failure: Res<JobFailure>| failure.0.is_none()));
+        let note = move |mut clock: ResMut<StageClock>, failure: Res<JobFailure>| {
+            let now = Instant::now();
+            clock.seconds[stage as usize] = (now - clock.last).as_secs_f64();
+            clock.last = now;
+            if failure.0.is_some() {
+                clock.failed_in.get_or_insert(stage);
+            }
+        };
+        match Stage::ALL.get(stage as usize + 1) {
+            Some(&next) => schedule.add_systems(note.after(stage).before(next)),
+            None => schedule.add_systems(note.after(stage)),
+        };
+    }
+    pipeline.install(&mut world, &mut schedule);
+    (world, schedule)
+}

@@ -1,0 +1,161 @@
+//! Curvature at vertices, and the samples made of it (paper 4.2.1; algorithm steps 2 and 3.1).
+
+use bevy_ecs::prelude::*;
+use glam::DVec3;
+use rayon::prelude::*;
+use schemars::JsonSchema;
+use seamline_ecs::components::*;
+use seamline_ecs::rows::{self, Samples};
+use seamline_ecs::settings::{OutOfRange, Profile, StepSettings};
+use seamline_ecs::{Column, ColumnMut, Counts, MeshTopology, Stage, StageSystems};
+use seamline_mesh::Topology;
+use serde::{Deserialize, Serialize};
+
+use crate::eigen::{PrincipalFrame, free_principal_frame, tangent_principal_frame};
+use crate::tensor::{Bending, TensorForm, TensorPair, vertex_tensors};
+
+/// What carries the samples of curvature that are classified.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Carrier {
+    /// Vertices that are not sharp, as in the paper.
+    Vertices,
+    /// Facets: flat pieces of the tessellation, such as one strip of a cylinder.
+    Facets,
+}
+
+/// The `[curvature]` table.
+#[derive(Resource, Clone, Debug, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct CurvatureSettings {
+    /// What carries the samples: `vertices` (paper) or `facets`.
+    pub carrier: Carrier,
+    /// How a vertex gathers curvature, where vertices carry it: `spokes`, `cell`, `ring` or `ball`.
+    pub tensor: TensorForm,
+    /// Radius of the ball for `tensor = "ball"`, in units of the scaled mesh (0.01: a hundredth of the
+    /// part's size).
+    pub ball_radius: f64,
+}
+
+impl StepSettings for CurvatureSettings {
+    const TABLE: &'static str = "curvature";
+
+    fn defaults(profile: Profile) -> Self {
+        let carrier = match profile {
+            Profile::Cad => Carrier::Facets,
+            Profile::Lavoue2005 => Carrier::Vertices,
+        };
+        Self { carrier, tensor: TensorForm::Spokes, ball_radius: 0.01 }
+    }
+
+    fn check(&self) -> Result<(), OutOfRange> {
+        OutOfRange::unless(
+            self.ball_radius > 0.0 && self.ball_radius <= 2.0,
+            "ball_radius",
+            "a radius above 0 and at most 2 (1: as large as the part)",
+        )
+    }
+}
+
+pub(crate) fn systems() -> StageSystems {
+    (measure_vertices, gather_samples).chain().in_set(Stage::Curvature)
+}
+
+/// Fills the curvature columns of all vertices.
+pub(crate) fn measure_vertices(
+    settings: Res<CurvatureSettings>,
+    topology: Res<MeshTopology>,
+    positions: Column<Position>,
+    shapes: Column<FaceShape>,
+    angles: Column<DihedralAngle>,
+    sharp_edges: Column<SharpEdge>,
+    sharp_vertices: Column<SharpVertex>,
+    mut full: ColumnMut<VertexCurvature>,
+    mut smooth: ColumnMut<SmoothCurvature>,
+) {
+    let bending = Bending {
+        topology: &topology.0,
+        positions: &positions,
+        shapes: &shapes,
+        angles: &angles,
+        sharp: &sharp_edges,
+    };
+    let tensors = vertex_tensors(&bending, settings.tensor, settings.ball_radius);
+    let frames = |pick: fn(&TensorPair) -> &SymmetricTensor| {
+        principal_frames(&bending, &sharp_vertices, &tensors, pick)
+    };
+    for (to, frame) in full.iter_mut().zip(frames(|t| &t.full)) {
+        *to = VertexCurvature { k: frame.k, d_min: frame.d_min, d_max: frame.d_max };
+    }
+    for (to, frame) in smooth.iter_mut().zip(frames(|t| &t.smooth)) {
+        to.0 = frame.k;
+    }
+}
+
+/// Principal frames of all vertices: in the tangent plane where there is one, free at sharp vertices.
+pub(crate) fn principal_frames(
+    bending: &Bending,
+    sharp: &[SharpVertex],
+    tensors: &[TensorPair],
+    pick: fn(&TensorPair) -> &SymmetricTensor,
+) -> Vec<PrincipalFrame> {
+    tensors
+        .par_iter()
+        .enumerate()
+        .with_min_len(2048)
+        .map(|(v, pair)| {
+            if sharp[v].0 {
+                free_principal_frame(pick(pair))
+            } else {
+                let normal = vertex_normal(bending.topology, bending.positions, bending.shapes, v as u32);
+                tangent_principal_frame(pick(pair), normal)
+            }
+        })
+        .collect()
+}
+
+/// Unit normal of a vertex: the normals of its faces, weighted by their angles at it. Zero where they
+/// cancel out or there are none.
+fn vertex_normal(topology: &Topology, positions: &[Position], shapes: &[FaceShape], v: u32) -> DVec3 {
+    let here = positions[v as usize].0;
+    let mut sum = DVec3::ZERO;
+    for &face in topology.vertex_faces.row(v as usize) {
+        let [a, b] = others(topology.triangles[face as usize], v).map(|w| positions[w as usize].0 - here);
+        let angle = a.cross(b).length().atan2(a.dot(b));
+        sum += shapes[face as usize].normal * angle;
+    }
+    sum.normalize_or_zero()
+}
+
+fn others([a, b, c]: [u32; 3], v: u32) -> [u32; 2] {
+    if a == v {
+        [b, c]
+    } else if b == v {
+        [c, a]
+    } else {
+        [a, b]
+    }
+}
+
+/// One sample a vertex that is used and not sharp, in vertex order.
+fn gather_samples(world: &mut World) {
+    let used = {
+        let topology = &world.resource::<MeshTopology>().0;
+        (0..topology.vertex_faces.row_count()).map(|v| !topology.vertex_faces.row(v).is_empty())
+            .collect::<Vec<_>>()
+    };
+    let sharp: Vec<bool> = rows::column_mut::<SharpVertex>(world).iter().map(|s| s.0).collect();
+    let samples: Vec<Sample> = rows::column_mut::<SmoothCurvature>(world)
+        .iter()
+        .enumerate()
+        .filter(|&(v, _)| used[v] && !sharp[v])
+        .map(|(v, k)| Sample { curvature: k.0.feature(), vertex: v as u32, ..Sample::default() })
+        .collect();
+    rows::resize::<Samples>(world, samples.len());
+    for (feature, sample) in rows::column_mut::<SampleFeature>(world).iter_mut().zip(&samples) {
+        feature.0 = sample.curvature;
+    }
+    rows::column_mut(world).copy_from_slice(&samples);
+    rows::column_mut(world).fill(FaceSample(NONE));
+    world.resource_mut::<Counts>().note(Stage::Curvature, "samples", samples.len());
+}

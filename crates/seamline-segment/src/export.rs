@@ -1,0 +1,292 @@
+//! Export: finished patches, their boundaries, and curvature in the file's own unit.
+
+use bevy_ecs::prelude::*;
+use rayon::prelude::*;
+use seamline_ecs::components::*;
+use seamline_ecs::results::{Boundary, PatchReport, PatchSummary, Segmentation, VertexQuantities};
+use seamline_ecs::rows::{self, Patches};
+use seamline_ecs::{
+    Column, ColumnMut, Counts, InputMesh, MeshScale, MeshTopology, Stage, StageSystems, StepError, fallible,
+};
+use seamline_mesh::{EdgeKind, Mesh, examine};
+
+use crate::boundaries::chains;
+use crate::curvature::principal_frames;
+use crate::eigen::free_principal_frame;
+use crate::tensor::{Bending, TensorForm, face_tensors, over, vertex_tensors};
+
+pub(crate) fn systems() -> StageSystems {
+    (fallible(check_labels), number_patches, collect.pipe(make_rows)).chain().in_set(Stage::Export)
+}
+
+fn check_labels(labels: Column<FaceLabel>) -> Result<(), StepError> {
+    let labels = &labels[..];
+    match labels.iter().position(|label| label.0 as usize >= labels.len()) {
+        None => Ok(()),
+        Some(face) => Err(StepError::new(
+            format!("face {face} was given the label {}", labels[face].0),
+            format!("labels are below the number of faces, {}", labels.len()),
+        )),
+    }
+}
+
+/// Every input face one patch, patches numbered by first face. Triangles follow their face.
+fn number_patches(
+    mesh: Res<InputMesh>,
+    shapes: Column<FaceShape>,
+    mut labels: ColumnMut<FaceLabel>,
+    mut patches: ResMut<FacePatches>,
+) {
+    let mesh = &mesh.0;
+    let labels = &mut labels[..];
+    let of_face = label_faces(mesh, &shapes, labels);
+
+    let mut numbers = vec![NONE; labels.len()];
+    let mut count = 0;
+    let of_face: Vec<u32> = of_face
+        .into_iter()
+        .map(|label| {
+            let number = &mut numbers[label as usize];
+            if *number == NONE {
+                *number = count;
+                count += 1;
+            }
+            *number
+        })
+        .collect();
+    for (label, &face) in labels.iter_mut().zip(&mesh.face_of_triangle) {
+        label.0 = of_face[face as usize];
+    }
+    *patches = FacePatches { of_face, count: count as usize };
+}
+
+/// The patch of each input face, and how many patches there are.
+#[derive(Resource, Default)]
+pub(crate) struct FacePatches {
+    of_face: Vec<u32>,
+    count: usize,
+}
+
+/// The label of each input face: that of most of its area. A face without a triangle takes that of a
+/// triangle it shares an edge with, else a vertex, else that of the face before it.
+fn label_faces(mesh: &Mesh, shapes: &[FaceShape], labels: &[FaceLabel]) -> Vec<u32> {
+    let mut of_face = vec![NONE; mesh.polygons.face_count()];
+    let mut triangle = 0;
+    for same_face in mesh.face_of_triangle.chunk_by(|a, b| a == b) {
+        let mut areas: Vec<(u32, f64)> = Vec::with_capacity(1);
+        for t in triangle..triangle + same_face.len() {
+            match areas.iter_mut().find(|(label, _)| *label == labels[t].0) {
+                Some((_, area)) => *area += shapes[t].area,
+                None => areas.push((labels[t].0, shapes[t].area)),
+            }
+        }
+        let most = areas.iter().max_by(|a, b| a.1.total_cmp(&b.1).then(b.0.cmp(&a.0)));
+        of_face[same_face[0] as usize] = most.map_or(NONE, |(label, _)| *label);
+        triangle += same_face.len();
+    }
+    label_empty_faces(mesh, labels, &mut of_face);
+    of_face
+}
+
+fn label_empty_faces(mesh: &Mesh, labels: &[FaceLabel], of_face: &mut [u32]) {
+    if !of_face.contains(&NONE) {
+        return;
+    }
+    let around = seamline_mesh::Csr::inverse_of(mesh.positions().len(), &mesh.triangles);
+    for face in 0..of_face.len() {
+        if of_face[face] != NONE {
+            continue;
+        }
+        let corners = mesh.polygons.face(face);
+        let shared = |t: &u32| {
+            mesh.triangles[*t as usize].iter().filter(|v| corners.contains(v)).count()
+        };
+        let touching = corners.iter().flat_map(|&v| around.row(v as usize)).copied();
+        let nearest = touching.max_by_key(|t| (shared(t), std::cmp::Reverse(*t)));
+        of_face[face] = match nearest {
+            Some(t) => labels[t as usize].0,
+            None if face > 0 => of_face[face - 1],
+            None => labels[0].0,
+        };
+    }
+}
+
+fn collect(
+    mesh: Res<InputMesh>,
+    patches: Res<FacePatches>,
+    scale: Res<MeshScale>,
+    topology: Res<MeshTopology>,
+    positions: Column<Position>,
+    shapes: Column<FaceShape>,
+    angles: Column<DihedralAngle>,
+    sharp_edges: Column<SharpEdge>,
+    sharp_vertices: Column<SharpVertex>,
+    facet_of_face: Column<FaceSample>,
+    samples: Column<Sample>,
+    labels: Column<FaceLabel>,
+) -> Segmentation {
+    let bending = Bending {
+        topology: &topology.0,
+        positions: &positions,
+        shapes: &shapes,
+        angles: &angles,
+        sharp: &sharp_edges,
+    };
+    let curvatures = face_curvatures(&bending, &facet_of_face, &samples);
+    let boundaries = boundaries(&bending, &labels, scale.length);
+    let summaries =
+        summaries(&bending, &labels, &curvatures, &patches.of_face, patches.count, scale.length);
+    Segmentation {
+        face_patches: patches.of_face.clone(),
+        patches: with_neighbours(summaries, &boundaries),
+        boundaries,
+        vertices: vertex_quantities(&bending, &sharp_vertices, scale.length),
+        findings: examine(&mesh.0, &topology.0),
+        stages: Vec::new(),
+    }
+}
+
+fn make_rows(In(segmentation): In<Segmentation>, world: &mut World) {
+    rows::resize::<Patches>(world, segmentation.patches.len());
+    for (row, patch) in rows::column_mut::<Patch>(world).iter_mut().zip(&segmentation.patches) {
+        row.0 = patch.summary;
+    }
+    let mut counts = world.resource_mut::<Counts>();
+    counts.note(Stage::Export, "patches", segmentation.patches.len());
+    counts.note(Stage::Export, "boundaries", segmentation.boundaries.len());
+    world.insert_resource(segmentation);
+}
+
+/// Principal curvatures of each face: those of its facet after filtering, where facets carry curvature,
+/// else those of its own tensor, sharp edges left out.
+fn face_curvatures(bending: &Bending, facet_of_face: &[FaceSample], samples: &[Sample]) -> Vec<Principal> {
+    let carried = facet_of_face.first().is_some_and(|facet| facet.0 != NONE);
+    if carried {
+        let signed = |sample: &Sample| {
+            let sign = free_principal_frame(&sample.tensor).k.k_min.signum();
+            let [k_min, k_max] = sample.curvature;
+            Principal { k_min: k_min * sign, k_max }
+        };
+        let of_facet: Vec<_> = samples.par_iter().with_min_len(2048).map(signed).collect();
+        return facet_of_face.iter().map(|facet| of_facet[facet.0 as usize]).collect();
+    }
+    let tensors = face_tensors(bending);
+    let own = tensors.par_iter().zip(bending.shapes).with_min_len(2048);
+    own.map(|(tensor, shape)| free_principal_frame(&over(&tensor.smooth, shape.area)).k).collect()
+}
+
+/// Curvature at every vertex for display, by the `ring` form with sharp edges left out: exact on prisms,
+/// and not blurred by creases.
+fn vertex_quantities(bending: &Bending, sharp: &[SharpVertex], length: f64) -> VertexQuantities {
+    let tensors = vertex_tensors(bending, TensorForm::Ring, 0.0);
+    let frames = principal_frames(bending, sharp, &tensors, |pair| &pair.smooth);
+    VertexQuantities {
+        k_min: frames.iter().map(|f| (f.k.k_min / length) as f32).collect(),
+        k_max: frames.iter().map(|f| (f.k.k_max / length) as f32).collect(),
+        d_min: frames.iter().map(|f| f.d_min.as_vec3().to_array()).collect(),
+        d_max: frames.iter().map(|f| f.d_max.as_vec3().to_array()).collect(),
+    }
+}
+
+/// Where two patches touch, by pairs of ids.
+fn boundaries(bending: &Bending, labels: &[FaceLabel], length: f64) -> Vec<Boundary> {
+    let topology = bending.topology;
+    let mut edges: Vec<([u32; 2], u32)> = Vec::new();
+    for (edge, faces) in topology.edge_faces.iter().enumerate() {
+        if topology.edge_kind[edge] == EdgeKind::Border {
+            continue;
+        }
+        let [a, b] = faces.map(|face| labels[face as usize].0);
+        if a != b {
+            edges.push(([a.min(b), a.max(b)], edge as u32));
+        }
+    }
+    edges.par_sort_unstable();
+    edges
+        .chunk_by(|a, b| a.0 == b.0)
+        .map(|common| {
+            let lengths = common.iter().map(|&(_, e)| bending.along(e).length());
+            let whole: f64 = lengths.clone().sum();
+            let sharp: f64 = lengths
+                .zip(common)
+                .filter(|(_, (_, e))| bending.sharp[*e as usize].0)
+                .map(|(length, _)| length)
+                .sum();
+            let ends: Vec<_> = common.iter().map(|&(_, e)| topology.edge_vertices[e as usize]).collect();
+            Boundary {
+                patches: common[0].0,
+                length: whole * length,
+                sharp_share: if whole > 0.0 { sharp / whole } else { 0.0 },
+                polylines: chains(&ends),
+            }
+        })
+        .collect()
+}
+
+/// Area, perimeter and curvature of each patch.
+fn summaries(
+    bending: &Bending,
+    labels: &[FaceLabel],
+    curvatures: &[Principal],
+    of_face: &[u32],
+    count: usize,
+    length: f64,
+) -> Vec<PatchSummary> {
+    let mut summaries = vec![PatchSummary::default(); count];
+    for &patch in of_face {
+        summaries[patch as usize].faces += 1;
+    }
+    let topology = bending.topology;
+    for (face, edges) in topology.face_edges.iter().enumerate() {
+        let patch = &mut summaries[labels[face].0 as usize];
+        let (area, k) = (bending.shapes[face].area, curvatures[face]);
+        patch.area += area;
+        patch.k_min_mean += area * k.k_min;
+        patch.k_max_mean += area * k.k_max;
+        for &edge in edges {
+            let across = topology.neighbour(face as u32, edge);
+            if across.is_none_or(|across| labels[across as usize] != labels[face]) {
+                patch.perimeter += bending.along(edge).length();
+            }
+        }
+    }
+    for patch in summaries.iter_mut().filter(|patch| patch.area > 0.0) {
+        patch.k_min_mean /= patch.area;
+        patch.k_max_mean /= patch.area;
+    }
+    for (face, k) in curvatures.iter().enumerate() {
+        let patch = &mut summaries[labels[face].0 as usize];
+        let area = bending.shapes[face].area;
+        patch.k_min_spread += area * (k.k_min - patch.k_min_mean).powi(2);
+        patch.k_max_spread += area * (k.k_max - patch.k_max_mean).powi(2);
+    }
+    for patch in &mut summaries {
+        let area = if patch.area > 0.0 { patch.area } else { 1.0 };
+        *patch = PatchSummary {
+            faces: patch.faces,
+            area: patch.area * length * length,
+            perimeter: patch.perimeter * length,
+            k_min_mean: patch.k_min_mean / length,
+            k_min_spread: (patch.k_min_spread / area).sqrt() / length,
+            k_max_mean: patch.k_max_mean / length,
+            k_max_spread: (patch.k_max_spread / area).sqrt() / length,
+        };
+    }
+    summaries
+}
+
+fn with_neighbours(summaries: Vec<PatchSummary>, boundaries: &[Boundary]) -> Vec<PatchReport> {
+    let mut neighbours = vec![Vec::new(); summaries.len()];
+    for boundary in boundaries {
+        let [a, b] = boundary.patches;
+        neighbours[a as usize].push(b);
+        neighbours[b as usize].push(a);
+    }
+    let reports = summaries.into_iter().zip(neighbours).enumerate();
+    reports
+        .map(|(id, (summary, mut neighbours))| {
+            neighbours.sort_unstable();
+            PatchReport { id: id as u32, summary, neighbours }
+        })
+        .collect()
+}

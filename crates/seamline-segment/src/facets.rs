@@ -1,0 +1,197 @@
+//! Facets, the flat pieces of a tessellation, and the curvature each of them bears (algorithm 6.1 to 6.4).
+//!
+//! On a coarse CAD tessellation every vertex of a fillet lies on its rim, shared with large planes, and
+//! says little of the fillet. Its strips say all: one strip of a cylinder, a plane however it is cut, a
+//! needle, each is one facet, and its tensor over its area is exact on prisms.
+
+use bevy_ecs::prelude::*;
+use glam::DVec3;
+use rayon::prelude::*;
+use schemars::JsonSchema;
+use seamline_ecs::components::*;
+use seamline_ecs::rows::{self, Samples};
+use seamline_ecs::settings::{OutOfRange, Profile, StepSettings};
+use seamline_ecs::{Column, ColumnMut, Counts, MeshTopology, Stage, StageSystems};
+use serde::{Deserialize, Serialize};
+
+use crate::eigen::tangent_principal_frame;
+use crate::tensor::{Bending, add_scaled, face_tensors, over};
+use seamline_mesh::Sets;
+
+/// The `[facets]` table: curvature on facets.
+#[derive(Resource, Clone, Debug, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct FacetSettings {
+    /// Triangles that turn by less than this belong to one facet. Default 0.1.
+    pub flat_deg: f64,
+    /// Rounds of the median filter over neighbouring facets. Default 2.
+    pub median_rounds: u32,
+    /// A neighbour takes part in the median if the smaller of the two areas is more than this share of the
+    /// larger. Without it a large flat is outvoted by the strips about it (boundary F1 .84 falls to .69).
+    /// Default 0.5.
+    pub similar_area_share: f64,
+    /// Curvature that counts as barely curved, over the part's size: features are `ln(1 + c / this)`, and
+    /// the relative distance of regions levels off below it. Default 0.5 (a radius of two sizes); 0.1 to 2
+    /// measure alike.
+    pub barely_curved: f64,
+}
+
+impl StepSettings for FacetSettings {
+    const TABLE: &'static str = "facets";
+
+    fn defaults(_: Profile) -> Self {
+        Self { flat_deg: 0.1, median_rounds: 2, similar_area_share: 0.5, barely_curved: 0.5 }
+    }
+
+    fn check(&self) -> Result<(), OutOfRange> {
+        OutOfRange::unless((0.0..90.0).contains(&self.flat_deg), "flat_deg", "an angle from 0 to 90 degrees")?;
+        OutOfRange::unless(
+            (0.0..1.0).contains(&self.similar_area_share),
+            "similar_area_share",
+            "a share from 0 to 1",
+        )?;
+        OutOfRange::unless(self.barely_curved > 0.0, "barely_curved", "a curvature above 0")
+    }
+}
+
+pub(crate) fn systems() -> StageSystems {
+    (measure.pipe(make_rows), filter).chain().in_set(Stage::Curvature)
+}
+
+/// The facets of a mesh.
+#[derive(Clone, Debug)]
+pub struct Facets {
+    /// The facet of each face, numbered by lowest face.
+    pub of_face: Vec<u32>,
+    /// What each facet is: area, tensor, curvature.
+    pub samples: Vec<Sample>,
+}
+
+/// Finds facets: faces connected over regular edges that are not sharp and turn by less than `flat`
+/// radians. The tensor of a facet is that of its faces over its area, sharp edges left out; its
+/// curvature is taken across its mean normal.
+pub fn find_facets(bending: &Bending, flat: f64) -> Facets {
+    let mut sets = Sets::new(bending.shapes.len());
+    for edge in 0..bending.angles.len() {
+        if !bending.sharp[edge].0
+            && bending.angles[edge].0.abs() < flat
+            && let Some([a, b]) = bending.topology.face_pair(edge)
+        {
+            sets.unite(a, b);
+        }
+    }
+    let (of_face, count) = sets.numbered();
+
+    let tensors = face_tensors(bending);
+    let mut sums = vec![(SymmetricTensor::default(), DVec3::ZERO, 0.0); count];
+    for ((&facet, tensor), shape) in of_face.iter().zip(&tensors).zip(bending.shapes) {
+        let (sum, normal, area) = &mut sums[facet as usize];
+        add_scaled(sum, &tensor.smooth, 1.0);
+        *normal += shape.normal * shape.area;
+        *area += shape.area;
+    }
+    let sample = |(sum, normal, area): &(SymmetricTensor, DVec3, f64)| {
+        let tensor = over(sum, *area);
+        let frame = tangent_principal_frame(&tensor, normal.normalize_or_zero());
+        Sample { area: *area, curvature: frame.k.feature(), tensor, vertex: NONE }
+    };
+    Facets { of_face, samples: sums.par_iter().with_min_len(2048).map(sample).collect() }
+}
+
+fn measure(
+    settings: Res<FacetSettings>,
+    topology: Res<MeshTopology>,
+    positions: Column<Position>,
+    shapes: Column<FaceShape>,
+    angles: Column<DihedralAngle>,
+    sharp: Column<SharpEdge>,
+) -> Facets {
+    let bending =
+        Bending { topology: &topology.0, positions: &positions, shapes: &shapes, angles: &angles, sharp: &sharp };
+    find_facets(&bending, settings.flat_deg.to_radians())
+}
+
+fn make_rows(In(facets): In<Facets>, world: &mut World) {
+    rows::resize::<Samples>(world, facets.samples.len());
+    rows::column_mut(world).copy_from_slice(&facets.samples);
+    for (row, facet) in rows::column_mut::<FaceSample>(world).iter_mut().zip(facets.of_face) {
+        row.0 = facet;
+    }
+    world.resource_mut::<Counts>().note(Stage::Curvature, "samples", facets.samples.len());
+}
+
+fn filter(
+    settings: Res<FacetSettings>,
+    topology: Res<MeshTopology>,
+    sharp: Column<SharpEdge>,
+    facet_of_face: Column<FaceSample>,
+    mut samples: ColumnMut<Sample>,
+    mut features: ColumnMut<SampleFeature>,
+) {
+    let pairs = smooth_neighbours(&topology.0, &sharp, &facet_of_face);
+    let samples = &mut samples[..];
+    for _ in 0..settings.median_rounds {
+        median_filter(&pairs, settings.similar_area_share, samples);
+    }
+    for (feature, sample) in features.iter_mut().zip(samples) {
+        feature.0 = sample.curvature.map(|c| (c / settings.barely_curved).ln_1p());
+    }
+}
+
+/// Pairs of facets that touch along an edge that is not sharp, each in both orders, sorted, once.
+fn smooth_neighbours(
+    topology: &seamline_mesh::Topology,
+    sharp: &[SharpEdge],
+    facet_of_face: &[FaceSample],
+) -> Vec<[u32; 2]> {
+    let mut pairs: Vec<[u32; 2]> = Vec::new();
+    for (edge, sharp) in sharp.iter().enumerate() {
+        let Some([a, b]) = topology.face_pair(edge) else { continue };
+        let [a, b] = [a, b].map(|face| facet_of_face[face as usize].0);
+        if !sharp.0 && a != b {
+            pairs.extend([[a, b], [b, a]]);
+        }
+    }
+    pairs.par_sort_unstable();
+    pairs.dedup();
+    pairs
+}
+
+/// Each curvature becomes the median, component by component, of the facet's own and those of its
+/// neighbours of similar area; facets with fewer than two such neighbours keep theirs. Irregular
+/// tessellations scatter a cone's facets over a factor of 40; a median keeps edges where a mean blurs them.
+fn median_filter(pairs: &[[u32; 2]], similar: f64, samples: &mut [Sample]) {
+    let filtered: Vec<(u32, [f64; 2])> = pairs
+        .chunk_by(|a, b| a[0] == b[0])
+        .collect::<Vec<_>>()
+        .into_par_iter()
+        .with_min_len(512)
+        .filter_map(|row| {
+            let own = &samples[row[0][0] as usize];
+            let alike = |other: &&Sample| {
+                own.area.min(other.area) > similar * own.area.max(other.area)
+            };
+            let mut values: Vec<[f64; 2]> = row
+                .iter()
+                .map(|pair| &samples[pair[1] as usize])
+                .filter(alike)
+                .map(|other| other.curvature)
+                .collect();
+            if values.len() < 2 {
+                return None;
+            }
+            values.push(own.curvature);
+            Some((row[0][0], [0, 1].map(|k| median(values.iter().map(|v| v[k]).collect()))))
+        })
+        .collect();
+    for (facet, curvature) in filtered {
+        samples[facet as usize].curvature = curvature;
+    }
+}
+
+/// The middle value; of an even number, the mean of the two in the middle.
+fn median(mut values: Vec<f64>) -> f64 {
+    values.sort_unstable_by(f64::total_cmp);
+    let half = values.len() / 2;
+    if values.len() % 2 == 1 { values[half] } else { (values[half - 1] + values[half]) / 2.0 }
+}

@@ -1,0 +1,110 @@
+//! Import: rows for the mesh, its topology, and its scale (algorithm step 0).
+
+use bevy_ecs::prelude::*;
+use glam::DVec3;
+use schemars::JsonSchema;
+use seamline_ecs::components::Position;
+use seamline_ecs::rows::{self, Edges, Faces, Vertices};
+use seamline_ecs::settings::{OutOfRange, Profile, StepSettings};
+use seamline_ecs::{
+    Counts, InputMesh, MeshScale, MeshTopology, Stage, StageSystems, StepError, fallible,
+};
+use seamline_mesh::{Mesh, Topology};
+use serde::{Deserialize, Serialize};
+
+/// The `[mesh]` table: how a mesh is read and scaled.
+#[derive(Resource, Clone, Debug, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct MeshSettings {
+    /// Vertices nearer than this share of the bounding box's diagonal become one. Identical coordinates
+    /// always do. Default 0.
+    pub weld_share: f64,
+    /// What becomes 1 when the mesh is scaled: curvatures are relative to it.
+    pub scale: ScaleBy,
+}
+
+/// A length to scale a mesh by.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum ScaleBy {
+    /// The longest side of the bounding box, as in the paper (4.4.3). Depends on how the part lies.
+    LongestSide,
+    /// The greatest distance between the area's centre and a vertex, doubled. The same however the part
+    /// lies.
+    Reach,
+}
+
+impl StepSettings for MeshSettings {
+    const TABLE: &'static str = "mesh";
+
+    fn defaults(profile: Profile) -> Self {
+        let scale = match profile {
+            Profile::Cad => ScaleBy::Reach,
+            Profile::Lavoue2005 => ScaleBy::LongestSide,
+        };
+        Self { weld_share: 0.0, scale }
+    }
+
+    fn check(&self) -> Result<(), OutOfRange> {
+        OutOfRange::unless((0.0..0.1).contains(&self.weld_share), "weld_share", "a share from 0 to 0.1")
+    }
+}
+
+pub(crate) fn systems() -> StageSystems {
+    fallible(import).in_set(Stage::Import)
+}
+
+fn import(world: &mut World) -> Result<(), StepError> {
+    let mesh = world.resource::<InputMesh>().0.clone();
+    let scale = scale_of(&mesh, world.resource::<MeshSettings>().scale).ok_or_else(|| {
+        StepError::new(
+            "no face has an area",
+            "the mesh needs one triangle at least whose corners do not lie on one line",
+        )
+    })?;
+    let topology = Topology::build(mesh.positions().len(), mesh.triangles.clone());
+    let [vertices, faces, edges] = topology.counts();
+    rows::resize::<Vertices>(world, vertices);
+    rows::resize::<Faces>(world, faces);
+    rows::resize::<Edges>(world, edges);
+
+    let positions: Vec<_> =
+        mesh.positions().iter().map(|&p| Position((p - scale.centre) / scale.length)).collect();
+    rows::column_mut(world).copy_from_slice(&positions);
+    let mut counts = world.resource_mut::<Counts>();
+    counts.note(Stage::Import, "vertices", vertices);
+    counts.note(Stage::Import, "triangles", faces);
+    counts.note(Stage::Import, "edges", edges);
+    world.insert_resource(scale);
+    world.insert_resource(MeshTopology(topology));
+    Ok(())
+}
+
+/// The scale of a mesh, `None` if it has no area. The centre is that of the bounding box.
+fn scale_of(mesh: &Mesh, by: ScaleBy) -> Option<MeshScale> {
+    let [low, high] = mesh.bounding_box();
+    let side = (high - low).max_element();
+    let centre = low + (high - low) / 2.0;
+    // In box sides, so that coordinates of 1e-12 and of 1e12 lose nothing.
+    let at = |v: u32| (mesh.positions()[v as usize] - centre) / side;
+    let mut area = 0.0;
+    let mut moment = DVec3::ZERO;
+    for corners in &mesh.triangles {
+        let [a, b, c] = corners.map(at);
+        let doubled = (b - a).cross(c - a).length();
+        area += doubled;
+        moment += (a + b + c) * (doubled / 3.0);
+    }
+    if !(side > 0.0 && area > 0.0) {
+        return None;
+    }
+    let length = match by {
+        ScaleBy::LongestSide => side,
+        ScaleBy::Reach => {
+            let middle = moment / area;
+            let reach = mesh.triangles.as_flattened().iter().map(|&v| at(v).distance_squared(middle));
+            2.0 * reach.fold(0.0, f64::max).sqrt() * side
+        }
+    };
+    Some(MeshScale { centre, length })
+}

@@ -1,0 +1,90 @@
+//! The built-in steps of the method, in the order a mesh meets them.
+//!
+//! Lavoué, Dupont, Baskurt: "A new CAD mesh segmentation method, based on curvature tensor analysis",
+//! Computer-Aided Design 37 (2005). Each file is one step: a pure kernel on slices, the thin system that
+//! lends it its columns, and its settings. Classifying and rectifying are left to plugins.
+
+mod ball;
+mod boundaries;
+mod curvature;
+mod eigen;
+mod enrich;
+mod export;
+mod face_shape;
+mod facets;
+mod grow;
+mod import;
+mod merge;
+mod region_graph;
+mod score;
+mod sharp;
+mod tensor;
+
+use std::sync::Arc;
+
+use bevy_ecs::prelude::*;
+use seamline_ecs::settings::{SettingsError, SettingsTable, read};
+use seamline_ecs::{BuiltinSteps, InstallStep};
+use toml::Table;
+
+pub use boundaries::chains;
+pub use curvature::{Carrier, CurvatureSettings};
+pub use eigen::{PrincipalFrame, free_principal_frame, tangent_principal_frame};
+pub use face_shape::face_shapes;
+pub use facets::{FacetSettings, Facets};
+pub use import::{MeshSettings, ScaleBy};
+pub use merge::{MergeSettings, RegionDistance};
+pub use score::ScoreSettings;
+pub use sharp::{SharpSettings, dihedral_angles};
+pub use tensor::{TensorForm, edge_tensor, face_tensors, vertex_tensors};
+
+/// The built-in steps and their tables of settings.
+pub fn builtin_steps() -> BuiltinSteps {
+    BuiltinSteps {
+        tables: vec![
+            SettingsTable::of::<MeshSettings>(),
+            SettingsTable::of::<SharpSettings>(),
+            SettingsTable::of::<CurvatureSettings>(),
+            SettingsTable::of::<FacetSettings>(),
+            SettingsTable::of::<MergeSettings>(),
+            SettingsTable::of::<ScoreSettings>(),
+        ],
+        install,
+    }
+}
+
+fn install(in_force: &Table) -> Result<InstallStep, SettingsError> {
+    let mesh: MeshSettings = read(in_force)?;
+    let sharp: SharpSettings = read(in_force)?;
+    let curvature: CurvatureSettings = read(in_force)?;
+    let facets: FacetSettings = read(in_force)?;
+    let merge: MergeSettings = read(in_force)?;
+    let score: ScoreSettings = read(in_force)?;
+
+    Ok(Arc::new(move |world: &mut World, schedule: &mut Schedule| {
+        world.insert_resource(mesh.clone());
+        world.insert_resource(sharp.clone());
+        world.insert_resource(curvature.clone());
+        world.insert_resource(facets.clone());
+        world.insert_resource(merge.clone());
+        world.insert_resource(score.clone());
+
+        world.init_resource::<export::FacePatches>();
+
+        schedule.add_systems((import::systems(), face_shape::systems()));
+        let on_vertices = curvature.carrier == Carrier::Vertices;
+        if on_vertices && sharp.enrich {
+            schedule.add_systems((sharp::systems(), enrich::systems()).chain());
+            schedule.add_systems((merge::systems(), enrich::removal()).chain());
+        } else {
+            schedule.add_systems((sharp::systems(), merge::systems()));
+        }
+        schedule.add_systems(match curvature.carrier {
+            Carrier::Vertices => {
+                (curvature::systems(), grow::vertex_systems(), score::vertex_systems())
+            }
+            Carrier::Facets => (facets::systems(), grow::facet_systems(), score::facet_systems()),
+        });
+        schedule.add_systems(export::systems());
+    }))
+}

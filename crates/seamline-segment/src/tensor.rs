@@ -1,0 +1,161 @@
+//! Curvature tensors from the normal cycle (Cohen-Steiner & Morvan 2003; paper 4.2.1; algorithm step 2).
+//!
+//! An edge bends the surface by its dihedral angle over its length: `E_e = beta |e| e eᵀ`. A face gets half
+//! of each of its edges, `F_t = ½ Σ E_e`, and `T_t = F_t / A_t` is its curvature. Convex is positive.
+
+use glam::DVec3;
+use rayon::prelude::*;
+use schemars::JsonSchema;
+use seamline_ecs::components::{DihedralAngle, FaceShape, Position, SharpEdge, SymmetricTensor};
+use seamline_mesh::Topology;
+use serde::{Deserialize, Serialize};
+
+/// How a vertex gathers the tensors round it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum TensorForm {
+    /// The edges at the vertex over the area of its faces: the 1-ring of the paper's authors. Two thirds of
+    /// the true curvature on regular meshes.
+    Spokes,
+    /// 3/2 of `spokes`: right on average.
+    Cell,
+    /// The faces at the vertex over their area: exact on prisms, however their quads are cut.
+    Ring,
+    /// The connected part of the surface in a ball about the vertex, edges and area clipped.
+    Ball,
+}
+
+/// The tensor of one edge: `beta |e| e eᵀ`, with unit `e`.
+pub fn edge_tensor(angle: f64, along: DVec3) -> SymmetricTensor {
+    let length = along.length();
+    if length == 0.0 || angle == 0.0 {
+        return SymmetricTensor::default();
+    }
+    let w = angle / length;
+    let v = along;
+    SymmetricTensor([
+        w * v.x * v.x,
+        w * v.y * v.y,
+        w * v.z * v.z,
+        w * v.x * v.y,
+        w * v.x * v.z,
+        w * v.y * v.z,
+    ])
+}
+
+/// `sum += factor * tensor`.
+pub(crate) fn add_scaled(sum: &mut SymmetricTensor, tensor: &SymmetricTensor, factor: f64) {
+    for (s, t) in sum.0.iter_mut().zip(tensor.0) {
+        *s += factor * t;
+    }
+}
+
+/// `tensor / divisor`, zero where there is nothing to divide by.
+pub(crate) fn over(tensor: &SymmetricTensor, divisor: f64) -> SymmetricTensor {
+    if divisor > 0.0 { SymmetricTensor(tensor.0.map(|t| t / divisor)) } else { SymmetricTensor::default() }
+}
+
+/// What the tensors are made from.
+#[derive(Clone, Copy)]
+pub struct Bending<'a> {
+    /// Edges and neighbours.
+    pub topology: &'a Topology,
+    /// One a vertex.
+    pub positions: &'a [Position],
+    /// One a face.
+    pub shapes: &'a [FaceShape],
+    /// One an edge.
+    pub angles: &'a [DihedralAngle],
+    /// One an edge.
+    pub sharp: &'a [SharpEdge],
+}
+
+impl Bending<'_> {
+    /// The vector of an edge, from its lower to its higher vertex.
+    pub(crate) fn along(&self, edge: u32) -> DVec3 {
+        let [a, b] = self.topology.edge_vertices[edge as usize];
+        self.positions[b as usize].0 - self.positions[a as usize].0
+    }
+
+    /// The tensor of an edge.
+    pub(crate) fn edge(&self, edge: u32) -> SymmetricTensor {
+        edge_tensor(self.angles[edge as usize].0, self.along(edge))
+    }
+}
+
+/// A tensor with every edge counted, and one with the sharp edges left out.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct TensorPair {
+    /// All edges.
+    pub full: SymmetricTensor,
+    /// Sharp edges count zero.
+    pub smooth: SymmetricTensor,
+}
+
+impl TensorPair {
+    pub(crate) fn add_edge(&mut self, bending: &Bending, edge: u32, factor: f64) {
+        let tensor = bending.edge(edge);
+        add_scaled(&mut self.full, &tensor, factor);
+        if !bending.sharp[edge as usize].0 {
+            add_scaled(&mut self.smooth, &tensor, factor);
+        }
+    }
+
+    pub(crate) fn over(&self, divisor: f64) -> Self {
+        Self { full: over(&self.full, divisor), smooth: over(&self.smooth, divisor) }
+    }
+}
+
+/// Integrated tensor `F_t` of every face: half of each of its edges, not yet over the area.
+pub fn face_tensors(bending: &Bending) -> Vec<TensorPair> {
+    let faces = bending.topology.face_edges.par_iter().with_min_len(4096);
+    faces
+        .map(|edges| {
+            let mut sum = TensorPair::default();
+            for &edge in edges {
+                sum.add_edge(bending, edge, 0.5);
+            }
+            sum
+        })
+        .collect()
+}
+
+/// Curvature tensor of every vertex, by `form`; `ball_radius` serves [`TensorForm::Ball`] alone. A vertex
+/// without area round it gets zero.
+///
+/// Cost: linear; for balls, by the number of faces in each ball.
+pub fn vertex_tensors(bending: &Bending, form: TensorForm, ball_radius: f64) -> Vec<TensorPair> {
+    let face_tensors = if form == TensorForm::Ring { face_tensors(bending) } else { Vec::new() };
+    let vertices = (0..bending.positions.len()).into_par_iter();
+    let area = |v: usize| -> f64 {
+        let faces = bending.topology.vertex_faces.row(v);
+        faces.iter().map(|&face| bending.shapes[face as usize].area).sum()
+    };
+    let spokes = |v: usize| {
+        let mut sum = TensorPair::default();
+        for &edge in bending.topology.vertex_edges.row(v) {
+            sum.add_edge(bending, edge, 1.0);
+        }
+        sum
+    };
+    match form {
+        TensorForm::Spokes => vertices.with_min_len(2048).map(|v| spokes(v).over(area(v))).collect(),
+        TensorForm::Cell => {
+            vertices.with_min_len(2048).map(|v| spokes(v).over(area(v) / 1.5)).collect()
+        }
+        TensorForm::Ring => vertices
+            .with_min_len(2048)
+            .map(|v| {
+                let mut sum = TensorPair::default();
+                for &face in bending.topology.vertex_faces.row(v) {
+                    add_scaled(&mut sum.full, &face_tensors[face as usize].full, 1.0);
+                    add_scaled(&mut sum.smooth, &face_tensors[face as usize].smooth, 1.0);
+                }
+                sum.over(area(v))
+            })
+            .collect(),
+        TensorForm::Ball => {
+            vertices.with_min_len(64).map(|v| crate::ball::ball_tensor(bending, v as u32, ball_radius)).collect()
+        }
+    }
+}

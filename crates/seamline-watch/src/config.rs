@@ -1,0 +1,258 @@
+//! The configuration: one TOML file, of which the frame is read here and the rest is the pipeline's.
+//!
+//! Relative paths are relative to the file. An unknown key, a value of the wrong kind, a folder that does
+//! not exist or that would feed itself is an error with file, line and key; nothing is done before all of
+//! it holds.
+
+mod error;
+mod folders;
+mod frame;
+mod line;
+mod schema;
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::time::Duration;
+
+use seamline_ecs::settings::{self, Profile, SettingsError, SettingsTable, StepSettings};
+use toml::{Table, Value};
+
+pub use error::ConfigError;
+pub use frame::{
+    After, DaemonTable, DoneTable, OutputTable, QuarantineTable, StateTable, WatchTable,
+};
+pub use line::line_of_key;
+pub use schema::schema;
+
+use crate::include::Patterns;
+use crate::outputs::WriteSet;
+
+/// The tables of the frame besides `[[watch]]`.
+const FRAME: [fn() -> SettingsTable; 5] = [
+    SettingsTable::of::<OutputTable>,
+    SettingsTable::of::<StateTable>,
+    SettingsTable::of::<QuarantineTable>,
+    SettingsTable::of::<DoneTable>,
+    SettingsTable::of::<DaemonTable>,
+];
+
+/// A configuration file that is TOML and holds no unknown table; its parts are checked by who needs them.
+#[derive(Clone, Debug)]
+pub struct ConfigFile {
+    path: PathBuf,
+    text: String,
+    tables: Table,
+}
+
+impl ConfigFile {
+    /// Reads a file. `pipeline_tables` are the tables that may stand beside the frame.
+    ///
+    /// # Errors
+    ///
+    /// A file that cannot be read, text that is not TOML, a top-level name that nobody knows.
+    pub fn read(path: &Path, pipeline_tables: &[SettingsTable]) -> Result<Self, ConfigError> {
+        let text = fs::read_to_string(path).map_err(|e| ConfigError::unreadable(path, &e))?;
+        let tables: Table = text.parse().map_err(|e| ConfigError::syntax(path, &text, &e))?;
+        let file = Self { path: path.to_owned(), text, tables };
+
+        let frame: Vec<_> = FRAME.iter().map(|frame| frame().name).collect();
+        let known = || {
+            let pipeline = pipeline_tables.iter().map(|table| table.name);
+            [WatchTable::TABLE].into_iter().chain(frame.iter().copied()).chain(pipeline)
+        };
+        for (name, value) in &file.tables {
+            if known().all(|known| known != name) {
+                let what = if matches!(value, Value::Table(_) | Value::Array(_)) { "table" } else { "key" };
+                return Err(file.locate(SettingsError::unknown(name, what, name, known())));
+            }
+        }
+        Ok(file)
+    }
+
+    /// The tables that belong to the pipeline, untouched.
+    pub fn pipeline_settings(&self) -> Table {
+        let of_frame = |name: &str| name == WatchTable::TABLE || FRAME.iter().any(|frame| frame().name == name);
+        let pipeline = self.tables.iter().filter(|(name, _)| !of_frame(name));
+        pipeline.map(|(name, value)| (name.clone(), value.clone())).collect()
+    }
+
+    /// Gives an error of the pipeline's settings its file and line.
+    pub fn locate(&self, error: SettingsError) -> ConfigError {
+        ConfigError::at(&self.path, &self.text, error)
+    }
+
+    /// The table of `S`, defaults filled in. `at` is where it stands: `output`, `watch.0`.
+    fn table<S: StepSettings>(&self, given: Option<&Value>, at: &str) -> Result<S, ConfigError> {
+        read_table(given).map_err(|mut error: SettingsError| {
+            error.key = error.key.replacen(S::TABLE, at, 1);
+            self.locate(error)
+        })
+    }
+}
+
+fn read_table<S: StepSettings>(given: Option<&Value>) -> Result<S, SettingsError> {
+    let known = [SettingsTable::of::<S>()];
+    let resolve = |given: Option<&Value>| {
+        let given = given.map(|table| (S::TABLE.to_owned(), table.clone()));
+        settings::resolve(&known, Profile::Cad, &given.into_iter().collect())
+    };
+    let in_force = resolve(given).map_err(|mut error| {
+        // A value of the right kind that is none of the words allowed is reported for the table as a
+        // whole; the key to blame is the one that is refused on its own.
+        if error.key == S::TABLE {
+            let alone = |(key, value): (&String, &Value)| {
+                let alone = Table::from_iter([(key.clone(), value.clone())]);
+                let refused = resolve(Some(&Value::Table(alone))).is_err_and(|e| e.key == S::TABLE);
+                refused.then(|| format!("{}.{key}", S::TABLE))
+            };
+            let culprit = given.and_then(Value::as_table).and_then(|table| table.iter().find_map(alone));
+            error.hint = match culprit {
+                Some(_) => "see `seamline config schema`".to_owned(),
+                None => error.hint,
+            };
+            error.key = culprit.unwrap_or(error.key);
+        }
+        error
+    })?;
+    settings::read(&in_force)
+}
+
+/// One watched folder, checked.
+#[derive(Clone, Debug)]
+pub struct Watched {
+    /// The folder, absolute, links resolved.
+    pub root: PathBuf,
+    /// Look into folders below it too?
+    pub recursive: bool,
+    /// Which files are taken.
+    pub include: Patterns,
+    /// How long size and time of change must have held still.
+    pub stable_for: Duration,
+    /// What becomes of a file once its results are written.
+    pub after: After,
+}
+
+/// A configuration, checked: folders absolute, defaults filled in.
+#[derive(Clone, Debug)]
+pub struct Config {
+    /// The watched folders; none is twice among them, none lies in another.
+    pub watch: Vec<Watched>,
+    /// Where results go.
+    pub output: PathBuf,
+    /// The files of each result.
+    pub write: WriteSet,
+    /// Where the daemon keeps what it must remember.
+    pub state: PathBuf,
+    /// Where files go that could not be cut.
+    pub quarantine: PathBuf,
+    /// Where files go after `after = "move"`.
+    pub done: PathBuf,
+    /// Meshes cut at the same time, at least one.
+    pub workers: usize,
+    /// Meshes that may wait between two steps.
+    pub queue: usize,
+    /// The folders are listed again after this long even if nothing was heard of them.
+    pub rescan_every: Duration,
+    pipeline: Table,
+}
+
+impl Config {
+    /// Reads a file ([`ConfigFile::read`]) and checks what the daemon needs of it.
+    ///
+    /// # Errors
+    ///
+    /// As [`ConfigFile::read`] and [`Config::from_file`].
+    pub fn load(path: &Path, pipeline_tables: &[SettingsTable]) -> Result<Self, ConfigError> {
+        Self::from_file(&ConfigFile::read(path, pipeline_tables)?)
+    }
+
+    /// Checks what the daemon needs of a file. Looks at folders, creates none.
+    ///
+    /// # Errors
+    ///
+    /// An unknown key, a value of the wrong kind or out of range, a watched folder that does not exist, and
+    /// folders of which one would feed the other.
+    pub fn from_file(file: &ConfigFile) -> Result<Self, ConfigError> {
+        let tables = &file.tables;
+        let output: OutputTable = file.table(tables.get("output"), "output")?;
+        let state: StateTable = file.table(tables.get("state"), "state")?;
+        let quarantine: QuarantineTable = file.table(tables.get("quarantine"), "quarantine")?;
+        let done: DoneTable = file.table(tables.get("done"), "done")?;
+        let daemon: DaemonTable = file.table(tables.get("daemon"), "daemon")?;
+
+        let place = |key: &str, dir: &Path| {
+            let base = file.path.parent().unwrap_or(Path::new(""));
+            folders::resolve(&base.join(dir)).map_err(|error| {
+                let reason = format!("{} cannot be looked at: {error}", base.join(dir).display());
+                file.locate(SettingsError::new(key, reason, "name a folder that may be read"))
+            })
+        };
+        let config = Self {
+            watch: watched(file, &place)?,
+            output: place("output.dir", &output.dir)?,
+            write: WriteSet::from(&output.write[..]),
+            state: place("state.dir", &state.dir)?,
+            quarantine: place("quarantine.dir", &quarantine.dir)?,
+            done: place("done.dir", &done.dir)?,
+            workers: match daemon.workers {
+                0 => std::thread::available_parallelism().map_or(1, |cores| cores.get().min(4)),
+                given => given,
+            },
+            queue: daemon.queue,
+            rescan_every: Duration::from_millis(daemon.rescan_ms),
+            pipeline: file.pipeline_settings(),
+        };
+        folders::check(&config).map_err(|error| file.locate(error))?;
+        Ok(config)
+    }
+
+    /// The tables that belong to the pipeline, untouched.
+    pub fn pipeline_settings(&self) -> &Table {
+        &self.pipeline
+    }
+}
+
+fn watched(
+    file: &ConfigFile,
+    place: &dyn Fn(&str, &Path) -> Result<PathBuf, ConfigError>,
+) -> Result<Vec<Watched>, ConfigError> {
+    let refuse = |key: &str, reason: String, hint: &str| file.locate(SettingsError::new(key, reason, hint));
+    let elements = match file.tables.get("watch") {
+        Some(Value::Array(elements)) if !elements.is_empty() => elements,
+        Some(Value::Table(_)) => {
+            return Err(refuse("watch", "is one table".to_owned(), "wants a list: write `[[watch]]`"));
+        }
+        _ => {
+            return Err(refuse(
+                "watch",
+                "no folder to watch".to_owned(),
+                "add `[[watch]]` with `root = \"inbox\"`",
+            ));
+        }
+    };
+    let mut watched = Vec::new();
+    for (at, element) in elements.iter().enumerate() {
+        let here = format!("watch.{at}");
+        let key = format!("{here}.root");
+        let table: WatchTable = file.table(Some(element), &here)?;
+        let root = place(&key, &table.root)?;
+        if !root.is_dir() {
+            let found = if root.exists() { "is not a folder" } else { "does not exist" };
+            let reason = format!("{} {found}", root.display());
+            return Err(refuse(&key, reason, "create the folder, or name one that exists"));
+        }
+        let include = Patterns::new(&table.include)
+            .map_err(|error| refuse(&format!("{here}.include"), error, "as in `include = [\"*.stl\"]`"))?;
+        watched.push(Watched {
+            root,
+            recursive: table.recursive,
+            include,
+            stable_for: Duration::from_millis(table.stable_for_ms),
+            after: table.after,
+        });
+    }
+    Ok(watched)
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,30 @@
+//! A folder that meshes are dropped into, and the results that come out of it.
+//!
+//! Data flows one way: [`events`] hint that something changed, [`scan()`] lists what is there, [`tracker`]
+//! says which file has been written to its end, [`mod@load`] reads it, a worker of [`seamline_ecs`] cuts it,
+//! [`outputs`] writes its results whole or not at all, and [`quarantine`] takes what cannot be cut.
+//! [`daemon`] runs all this on threads with bounded channels between them; [`config`] says where. What is
+//! done to the mesh on its way is none of this crate's business.
+
+pub mod config;
+pub mod daemon;
+pub mod events;
+pub mod include;
+pub mod load;
+pub mod outputs;
+pub mod quarantine;
+pub mod relocate;
+pub mod scan;
+pub mod tracker;
+
+pub use config::{Config, ConfigError, ConfigFile};
+pub use daemon::{RunOptions, Summary, WatchError, run};
+pub use load::{LoadError, LoadedMesh, load};
+pub use outputs::{JobFacts, OutputError, WriteSet, report, write_results};
+pub use scan::scan;
+
+/// The version of the program, as reports name it.
+pub const VERSION: &str = env!("CARGO_PKG_VERSION");
+
+#[cfg(test)]
+mod test_support;

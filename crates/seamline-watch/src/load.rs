@@ -1,0 +1,160 @@
+//! One mesh file into memory: read whole, hashed, parsed, welded.
+
+use std::fs::{self, File};
+use std::io::{self, Read};
+use std::path::Path;
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+use seamline_mesh::{Format, Mesh, ReadError, read_bytes, tolerance_from_share, weld};
+
+use crate::tracker::Stamp;
+
+/// A mesh, and what is told of the file it came from.
+#[derive(Clone, Debug)]
+pub struct LoadedMesh {
+    /// The mesh, welded.
+    pub mesh: Arc<Mesh>,
+    /// BLAKE3 of the file's bytes, in hexadecimal.
+    pub hash: String,
+    /// The format found.
+    pub format: Format,
+    /// Length of the file.
+    pub bytes_len: u64,
+    /// The state of the file that was read.
+    pub stamp: Stamp,
+    /// How long reading, parsing and welding took, by the clock.
+    pub took: Duration,
+}
+
+/// Why a file gave no mesh. `Display` is one line without the name of the file.
+#[derive(Debug, thiserror::Error)]
+pub enum LoadError {
+    /// The file system refused.
+    #[error("cannot be read: {0}")]
+    Io(#[from] io::Error),
+    /// A folder, a pipe, a device.
+    #[error("is not a regular file")]
+    NotAFile,
+    /// Somebody wrote to the file while it was read.
+    #[error("changed while it was read")]
+    Changed,
+    /// The bytes are no mesh that can be read.
+    #[error("{error}")]
+    Mesh {
+        /// What is wrong with them.
+        error: ReadError,
+        /// BLAKE3 of the file's bytes, in hexadecimal.
+        hash: String,
+    },
+}
+
+impl LoadError {
+    /// What to do about it: one sentence.
+    pub fn hint(&self) -> &str {
+        match self {
+            Self::Io(_) => "check that the file exists and may be read",
+            Self::NotAFile => "name a file",
+            Self::Changed => "wait until the program that writes it has finished",
+            Self::Mesh { error, .. } => error.hint(),
+        }
+    }
+
+    /// Whether the bytes are at fault, so that trying again cannot help.
+    pub fn is_of_content(&self) -> bool {
+        matches!(self, Self::Mesh { .. })
+    }
+
+    /// The hash of the content, where it was read.
+    pub fn hash(&self) -> Option<&str> {
+        match self {
+            Self::Mesh { hash, .. } => Some(hash),
+            _ => None,
+        }
+    }
+}
+
+/// Reads, hashes, parses and welds one file. Vertices are welded within `weld_share` of the diagonal of the
+/// bounding box; at 0 only those at the very same place are.
+///
+/// # Errors
+///
+/// [`LoadError`]; [`LoadError::Changed`] if the file is not the same after reading as it was before.
+pub fn load(path: &Path, weld_share: f64) -> Result<LoadedMesh, LoadError> {
+    let started = Instant::now();
+    let (bytes, stamp) = read_at_rest(path)?;
+    let hash = blake3::hash(&bytes).to_hex().to_string();
+    let polygons = match read_bytes(&bytes, path) {
+        Ok(polygons) => polygons,
+        Err(error) => return Err(LoadError::Mesh { error, hash }),
+    };
+    let bytes_len = bytes.len() as u64;
+    drop(bytes);
+    let format = polygons.format;
+    let tolerance = tolerance_from_share(&polygons, weld_share);
+    let mesh = Arc::new(weld(polygons, tolerance));
+    Ok(LoadedMesh { mesh, hash, format, bytes_len, stamp, took: started.elapsed() })
+}
+
+fn read_at_rest(path: &Path) -> Result<(Vec<u8>, Stamp), LoadError> {
+    // Before opening: to open a pipe would wait for somebody to write into it.
+    if !fs::metadata(path)?.is_file() {
+        return Err(LoadError::NotAFile);
+    }
+    let mut file = File::open(path)?;
+    let before = Stamp::of(&file.metadata()?);
+    let mut bytes = Vec::new();
+    file.read_to_end(&mut bytes)?;
+    let after = Stamp::of(&file.metadata()?);
+    if before != after || bytes.len() as u64 != after.size {
+        return Err(LoadError::Changed);
+    }
+    Ok((bytes, after))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const TRIANGLE: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 1 1e-6\nf 1 2 3\nf 2 1 4\n";
+
+    fn loaded(text: &str, weld_share: f64) -> Result<LoadedMesh, LoadError> {
+        let home = tempfile::tempdir().unwrap();
+        let path = home.path().join("part.obj");
+        fs::write(&path, text).unwrap();
+        load(&path, weld_share)
+    }
+
+    #[test]
+    fn a_file_is_read_hashed_and_welded() {
+        let mesh = loaded(TRIANGLE, 0.0).unwrap();
+        assert_eq!(mesh.hash, blake3::hash(TRIANGLE.as_bytes()).to_hex().as_str());
+        assert_eq!(mesh.bytes_len, TRIANGLE.len() as u64);
+        assert_eq!(mesh.format, Format::Obj);
+        assert_eq!(mesh.mesh.positions().len(), 4);
+    }
+
+    #[test]
+    fn welding_reaches_as_far_as_its_share_of_the_diagonal() {
+        assert_eq!(loaded(TRIANGLE, 1e-5).unwrap().mesh.positions().len(), 3);
+    }
+
+    #[test]
+    fn content_that_is_no_mesh_is_told_with_its_hash() {
+        let error = loaded("v 0 0 0\nf 1 2 3\n", 0.0).unwrap_err();
+        assert!(error.is_of_content() && error.hash().is_some());
+        assert!(!error.to_string().contains('\n') && !error.hint().is_empty());
+    }
+
+    #[test]
+    fn a_folder_is_not_a_file() {
+        let home = tempfile::tempdir().unwrap();
+        assert!(matches!(load(home.path(), 0.0), Err(LoadError::NotAFile)));
+    }
+
+    #[test]
+    fn a_file_that_is_not_there_is_no_fault_of_content() {
+        let error = load(Path::new("no/such/file.stl"), 0.0).unwrap_err();
+        assert!(!error.is_of_content());
+    }
+}

@@ -1,0 +1,212 @@
+//! Results as files: for `part.stl` the folder `part.stl.seamline/`, whole or not at all.
+
+mod findings;
+mod folder;
+mod report;
+mod sweep;
+
+use std::ffi::{OsStr, OsString};
+use std::fs::File;
+use std::io::{self, BufWriter, Write};
+use std::path::{Path, PathBuf};
+use std::str::FromStr;
+
+use schemars::JsonSchema;
+use seamline_ecs::Segmentation;
+use seamline_ecs::settings::SettingsError;
+use seamline_mesh::Mesh;
+use seamline_mesh::write::{
+    PatchBoundary, VertexQuantities, write_labels, write_ply, write_polylines,
+};
+use serde::{Deserialize, Serialize};
+
+pub use report::{JobFacts, REPORT_SCHEMA_VERSION, report};
+pub use sweep::sweep_leftovers;
+
+pub(crate) use sweep::{TEMPORARY_END, TEMPORARY_START, hold};
+
+/// What the name of a result folder ends in.
+pub const FOLDER_SUFFIX: &str = ".seamline";
+
+/// One file of a result.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum OutputFile {
+    /// `labels.seg`: the patch of each input face, one a line.
+    Labels,
+    /// `patches.ply`: the mesh with patches, colours and curvatures.
+    Patches,
+    /// `boundaries.obj`: the boundary curves.
+    Boundaries,
+    /// `report.json`: everything that is told of the mesh and its patches.
+    Report,
+}
+
+impl OutputFile {
+    /// All of them, in the order they are written. The report comes last: where it is, the others are.
+    pub const ALL: [Self; 4] = [Self::Labels, Self::Patches, Self::Boundaries, Self::Report];
+
+    /// The word for it in configurations and on the command line.
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Labels => "labels",
+            Self::Patches => "patches",
+            Self::Boundaries => "boundaries",
+            Self::Report => "report",
+        }
+    }
+
+    /// Its name in the result folder.
+    pub fn file_name(self) -> &'static str {
+        match self {
+            Self::Labels => "labels.seg",
+            Self::Patches => "patches.ply",
+            Self::Boundaries => "boundaries.obj",
+            Self::Report => "report.json",
+        }
+    }
+}
+
+/// Which files a result consists of. Read from text, it is a list with commas: `labels,report`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct WriteSet([bool; 4]);
+
+impl WriteSet {
+    /// Every file.
+    pub const ALL: Self = Self([true; 4]);
+
+    /// Is this file among them?
+    pub fn has(self, file: OutputFile) -> bool {
+        self.0[file as usize]
+    }
+}
+
+impl From<&[OutputFile]> for WriteSet {
+    fn from(files: &[OutputFile]) -> Self {
+        Self(OutputFile::ALL.map(|file| files.contains(&file)))
+    }
+}
+
+impl FromStr for WriteSet {
+    type Err = SettingsError;
+
+    fn from_str(list: &str) -> Result<Self, SettingsError> {
+        let words = list.split(',').map(str::trim).filter(|word| !word.is_empty());
+        let files: Vec<_> = words
+            .map(|word| {
+                let known = OutputFile::ALL.into_iter().find(|file| file.word() == word);
+                known.ok_or_else(|| {
+                    SettingsError::unknown("write", "file", word, OutputFile::ALL.map(OutputFile::word))
+                })
+            })
+            .collect::<Result<_, _>>()?;
+        if files.is_empty() {
+            return Err(SettingsError::new("write", "names no file", "wants a list such as `labels,report`"));
+        }
+        Ok(Self::from(&files[..]))
+    }
+}
+
+/// Why results could not be written. The input is not at fault.
+#[derive(Debug, thiserror::Error)]
+pub enum OutputError {
+    /// The file system refused.
+    #[error("{} cannot be written: {error}", .path.display())]
+    Io {
+        /// What was to be written.
+        path: PathBuf,
+        /// What the system says.
+        error: io::Error,
+    },
+    /// Something that is no result folder has its name.
+    #[error("{} is in the way: it is not a folder", .path.display())]
+    InTheWay {
+        /// The name.
+        path: PathBuf,
+    },
+}
+
+impl OutputError {
+    /// What to do about it: one sentence.
+    pub fn hint(&self) -> &'static str {
+        match self {
+            Self::Io { .. } => "check that the output folder may be written and that the disk has room",
+            Self::InTheWay { .. } => "move it away, or choose another output folder",
+        }
+    }
+
+    fn io(path: &Path) -> impl FnOnce(io::Error) -> Self {
+        move |error| Self::Io { path: path.to_owned(), error }
+    }
+}
+
+/// The folder that holds the results of an input of this name.
+pub fn result_folder(destination_parent: &Path, input_name: &OsStr) -> PathBuf {
+    let mut name = OsString::from(input_name);
+    name.push(FOLDER_SUFFIX);
+    destination_parent.join(name)
+}
+
+/// Writes the results of one mesh to `destination_parent/input_name.seamline/` and gives that path.
+///
+/// The folder appears whole or not at all: it is written under another name, brought to disk and then
+/// renamed. One that is there already is exchanged in one step and then deleted, with all that is in it.
+///
+/// # Errors
+///
+/// [`OutputError`]; what was there before is then still there.
+pub fn write_results(
+    destination_parent: &Path,
+    input_name: &OsStr,
+    mesh: &Mesh,
+    segmentation: &Segmentation,
+    about: &JobFacts<'_>,
+    what: WriteSet,
+) -> Result<PathBuf, OutputError> {
+    let place = result_folder(destination_parent, input_name);
+    let folder = folder::WholeFolder::begin(&place)?;
+    for file in OutputFile::ALL.into_iter().filter(|&file| what.has(file)) {
+        let path = folder.path().join(file.file_name());
+        write_file(&path, |out| write_one(file, out, mesh, segmentation, about))
+            .map_err(OutputError::io(&place.join(file.file_name())))?;
+    }
+    folder.commit()?;
+    Ok(place)
+}
+
+fn write_file(path: &Path, fill: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>) -> io::Result<()> {
+    let mut out = BufWriter::new(File::create_new(path)?);
+    fill(&mut out)?;
+    out.into_inner().map_err(io::IntoInnerError::into_error)?.sync_all()
+}
+
+fn write_one(
+    file: OutputFile,
+    out: &mut impl Write,
+    mesh: &Mesh,
+    segmentation: &Segmentation,
+    about: &JobFacts<'_>,
+) -> io::Result<()> {
+    match file {
+        OutputFile::Labels => write_labels(out, &segmentation.face_patches),
+        OutputFile::Patches => {
+            let of = &segmentation.vertices;
+            let quantities =
+                VertexQuantities { k_min: &of.k_min, k_max: &of.k_max, d_min: &of.d_min, d_max: &of.d_max };
+            write_ply(out, &mesh.polygons, quantities, &segmentation.face_patches)
+        }
+        OutputFile::Boundaries => {
+            let curves = segmentation.boundaries.iter();
+            let curves: Vec<_> =
+                curves.map(|b| PatchBoundary { patches: b.patches, polylines: &b.polylines }).collect();
+            write_polylines(out, mesh.positions(), &curves)
+        }
+        OutputFile::Report => {
+            serde_json::to_writer_pretty(&mut *out, &report(mesh, segmentation, about))?;
+            out.write_all(b"\n")
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;

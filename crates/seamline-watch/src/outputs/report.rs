@@ -1,0 +1,105 @@
+//! Everything that is told of one mesh, as JSON.
+//!
+//! The same input, settings and version give the same report, with one exception: the key `seconds`, which
+//! holds times by the clock. Nothing outside it differs between two runs.
+
+use std::path::Path;
+
+use seamline_ecs::Segmentation;
+use seamline_ecs::results::{Boundary, PatchReport};
+use seamline_mesh::{Format, Mesh};
+use serde::Serialize;
+use serde_json::{Map, Value, json};
+
+/// The form of the report: counted up when a key changes its meaning or goes, not when one is added.
+pub const REPORT_SCHEMA_VERSION: u32 = 1;
+
+/// What is known of a job besides its mesh and its patches.
+#[derive(Clone, Copy, Debug)]
+pub struct JobFacts<'a> {
+    /// The input file, as it is to be named in the report.
+    pub path: &'a Path,
+    /// BLAKE3 of its bytes, in hexadecimal.
+    pub hash: &'a str,
+    /// The format found.
+    pub format: Format,
+    /// Its length in bytes.
+    pub bytes_len: u64,
+    /// The settings in force, every default written out.
+    pub settings: &'a toml::Table,
+    /// The version of the program.
+    pub program_version: &'a str,
+    /// How long reading the file took, by the clock.
+    pub read_seconds: f64,
+}
+
+#[derive(Serialize)]
+struct Report<'a> {
+    schema_version: u32,
+    program: Program<'a>,
+    input: Input<'a>,
+    settings: &'a toml::Table,
+    findings: Value,
+    stages: Vec<Value>,
+    patches: &'a [PatchReport],
+    boundaries: &'a [Boundary],
+    seconds: Map<String, Value>,
+}
+
+#[derive(Serialize)]
+struct Program<'a> {
+    name: &'static str,
+    version: &'a str,
+}
+
+#[derive(Serialize)]
+struct Input<'a> {
+    path: String,
+    blake3: &'a str,
+    format: &'static str,
+    bytes: u64,
+    faces: usize,
+    triangles: usize,
+    vertices: usize,
+    units: &'static str,
+}
+
+/// The report on one mesh, as it stands in `report.json`. Keys are always in the same order.
+pub fn report(mesh: &Mesh, segmentation: &Segmentation, about: &JobFacts<'_>) -> Value {
+    let report = Report {
+        schema_version: REPORT_SCHEMA_VERSION,
+        program: Program { name: "seamline", version: about.program_version },
+        input: Input {
+            path: about.path.display().to_string(),
+            blake3: about.hash,
+            format: about.format.name(),
+            bytes: about.bytes_len,
+            faces: mesh.polygons.face_count(),
+            triangles: mesh.triangles.len(),
+            vertices: mesh.positions().len(),
+            units: "as in the file",
+        },
+        settings: about.settings,
+        findings: super::findings::findings(segmentation),
+        stages: stages(segmentation),
+        patches: &segmentation.patches,
+        boundaries: &segmentation.boundaries,
+        seconds: seconds(segmentation, about.read_seconds),
+    };
+    serde_json::to_value(report).expect("a report is plain values under text keys")
+}
+
+/// Stages without their times.
+fn stages(segmentation: &Segmentation) -> Vec<Value> {
+    let stages = segmentation.stages.iter();
+    stages.map(|record| json!({ "stage": record.stage, "counts": record.counts })).collect()
+}
+
+/// All times, in the order spent, and their sum.
+fn seconds(segmentation: &Segmentation, read: f64) -> Map<String, Value> {
+    let stages = segmentation.stages.iter().map(|record| (record.stage.name(), record.seconds));
+    let spent: Vec<_> = [("read", read)].into_iter().chain(stages).collect();
+    let total = spent.iter().map(|(_, seconds)| seconds).sum();
+    let all = spent.into_iter().chain([("total", total)]);
+    all.map(|(name, seconds)| (name.to_owned(), json!(seconds))).collect()
+}

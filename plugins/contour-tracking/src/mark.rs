@@ -1,0 +1,69 @@
+//! Correct boundary edges (paper 5.3.1).
+
+use seamline_ecs::components::{BoundaryScore, ContourState, FaceLabel, SharpEdge};
+use seamline_mesh::{Sets, Topology};
+
+use crate::ContourTrackingSettings;
+
+/// Writes the state of every edge: correct, kept or off the contours. Only edges between two labels are
+/// looked at.
+pub fn mark(
+    topology: &Topology,
+    scores: &[BoundaryScore],
+    sharp: &[SharpEdge],
+    labels: &[FaceLabel],
+    settings: &ContourTrackingSettings,
+    states: &mut [ContourState],
+) {
+    let is_boundary = |edge: usize| {
+        topology.face_pair(edge).is_some_and(|[a, b]| labels[a as usize] != labels[b as usize])
+    };
+    let boundary: Vec<u32> =
+        (0..states.len()).filter(|&edge| is_boundary(edge)).map(|edge| edge as u32).collect();
+    states.fill(ContourState::Off);
+    for &edge in &boundary {
+        let edge = edge as usize;
+        let by_score = scores[edge].0 < settings.correct_below_deg;
+        if by_score || (settings.sharp_is_correct && sharp[edge].0) {
+            states[edge] = ContourState::Correct;
+        }
+    }
+    if settings.keep_unmarked {
+        keep_unmarked(topology, &boundary, states);
+    }
+}
+
+/// Keeps every run of boundary edges between two junctions in which no edge is correct.
+fn keep_unmarked(topology: &Topology, boundary: &[u32], states: &mut [ContourState]) {
+    let vertex_count = topology.vertex_edges.row_count();
+    let mut degree = vec![0u32; vertex_count];
+    let mut one_of = vec![u32::MAX; vertex_count];
+    for &edge in boundary {
+        for v in topology.edge_vertices[edge as usize] {
+            degree[v as usize] += 1;
+        }
+    }
+    let mut runs = Sets::new(boundary.len());
+    for (i, &edge) in boundary.iter().enumerate() {
+        for v in topology.edge_vertices[edge as usize].map(|v| v as usize) {
+            if degree[v] != 2 {
+                continue;
+            }
+            if one_of[v] == u32::MAX {
+                one_of[v] = i as u32;
+            } else {
+                runs.unite(one_of[v], i as u32);
+            }
+        }
+    }
+    let (run_of, run_count) = runs.numbered();
+    let mut marked = vec![false; run_count];
+    for (&edge, &run) in boundary.iter().zip(&run_of) {
+        marked[run as usize] |= states[edge as usize] == ContourState::Correct;
+    }
+    for (&edge, &run) in boundary.iter().zip(&run_of) {
+        if !marked[run as usize] {
+            states[edge as usize] = ContourState::Kept;
+        }
+    }
+}

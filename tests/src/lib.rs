@@ -1,0 +1,76 @@
+//! What the end-to-end tests have in common: the built binary, the library's pipeline, and the bench of CAD
+//! meshes where it is present.
+
+use std::path::PathBuf;
+use std::process::Command;
+use std::sync::{Arc, OnceLock};
+
+use escargot::CargoBuild;
+use seamline_ecs::settings::set_dotted;
+use seamline_ecs::{Pipeline, Segmentation, Worker};
+use seamline_mesh::{Mesh, PolygonMesh, weld};
+use seamline_segment::builtin_steps;
+
+/// The built binary, ready for arguments.
+pub fn seamline() -> Command {
+    static BINARY: OnceLock<PathBuf> = OnceLock::new();
+    let path = BINARY.get_or_init(|| {
+        let build = CargoBuild::new().package("seamline").bin("seamline").current_target().release();
+        build.run().expect("the binary builds").path().to_owned()
+    });
+    Command::new(path)
+}
+
+/// A file or folder of the bench, which lies beside the project's folder. `None`, and a word on standard
+/// error, where it is absent.
+pub fn bench(path: &str) -> Option<PathBuf> {
+    let found = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../shared/bench").join(path);
+    if found.exists() {
+        return Some(found);
+    }
+    eprintln!("SKIPPED: ../shared/bench/{path} is not there");
+    None
+}
+
+/// The pipeline under `settings`, each `KEY=VALUE`.
+///
+/// # Panics
+///
+/// If a setting is wrong.
+pub fn pipeline(settings: &[&str]) -> Arc<Pipeline> {
+    let mut given = toml::Table::new();
+    for setting in settings {
+        let (key, value) = setting.split_once('=').expect("KEY=VALUE");
+        set_dotted(&mut given, key, value).expect("a dotted key");
+    }
+    let registry = seamline_plugins::registry();
+    Arc::new(Pipeline::assemble(&builtin_steps(), &registry, &given).expect("settings are right"))
+}
+
+/// Polygons welded and cut into patches under `settings`.
+///
+/// # Panics
+///
+/// If a setting is wrong or a step fails.
+pub fn segment(polygons: PolygonMesh, settings: &[&str]) -> Segmentation {
+    segment_mesh(weld(polygons, 0.0), settings)
+}
+
+/// As [`segment`], of a mesh already welded.
+///
+/// # Panics
+///
+/// As [`segment`].
+pub fn segment_mesh(mesh: Mesh, settings: &[&str]) -> Segmentation {
+    Worker::new(pipeline(settings)).segment(Arc::new(mesh)).expect("every step does its work")
+}
+
+/// What a stage counted under a name.
+///
+/// # Panics
+///
+/// If it counted no such thing.
+pub fn count(segmentation: &Segmentation, stage: &str, name: &str) -> u64 {
+    let record = segmentation.stages.iter().find(|record| record.stage.name() == stage);
+    *record.and_then(|record| record.counts.get(name)).expect("the stage counted it")
+}

@@ -377,7 +377,9 @@ pub fn smooth_cube(radius: f64, flat_steps: usize, edge_steps: usize) -> Shape {
                     } else {
                         [quad[3], quad[2], quad[1], quad[0]]
                     };
-                    shape.push_cut_quad(smooth_cube_patch(cell), quad, true);
+                    // Towards the cube's corners, so that these have six triangles and not three.
+                    let rising = (2 * i + 1 < stations.len()) == (2 * j + 1 < stations.len());
+                    shape.push_cut_quad(smooth_cube_patch(cell), quad, rising == (sign > 0.0));
                 }
             }
         }

@@ -26,7 +26,7 @@ pub fn weld(polygons: PolygonMesh, tolerance: f64) -> Mesh {
         mut corners,
     } = polygons;
     let (mut positions, mut vertex_of_input) =
-        number(&same::first_at_same_place(&positions), &positions);
+        number(&same::earlier_at_same_place(&positions), &positions);
     if let Some(firsts) = near::first_nearby(&positions, tolerance) {
         let (fewer, merged) = number(&firsts, &positions);
         positions = fewer;
@@ -68,12 +68,12 @@ fn bounds(positions: &[DVec3]) -> Option<[DVec3; 2]> {
     )
 }
 
-/// Numbers the vertices that are their own first, in order; gives their positions, and for every vertex the
-/// number of its first. `firsts[i] <= i`.
-fn number(firsts: &[u32], positions: &[DVec3]) -> (Vec<DVec3>, Vec<u32>) {
+/// Numbers the vertices that name themselves, in order; gives their positions, and for every vertex the number
+/// of the one it leads to. `earlier[i] <= i`.
+fn number(earlier: &[u32], positions: &[DVec3]) -> (Vec<DVec3>, Vec<u32>) {
     let mut distinct = Vec::new();
-    let mut numbers: Vec<u32> = Vec::with_capacity(firsts.len());
-    for (vertex, &first) in firsts.iter().enumerate() {
+    let mut numbers: Vec<u32> = Vec::with_capacity(earlier.len());
+    for (vertex, &first) in earlier.iter().enumerate() {
         if first as usize == vertex {
             numbers.push(distinct.len() as u32);
             // Adding zero turns -0.0 into 0.0.

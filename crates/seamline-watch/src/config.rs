@@ -5,19 +5,20 @@
 //! it holds.
 
 mod error;
+mod file;
 mod folders;
 mod frame;
 mod line;
 mod schema;
 
-use std::fs;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-use seamline_ecs::settings::{self, Profile, SettingsError, SettingsTable, StepSettings};
+use seamline_ecs::settings::{SettingsError, SettingsTable};
 use toml::{Table, Value};
 
 pub use error::ConfigError;
+pub use file::ConfigFile;
 pub use frame::{
     After, DaemonTable, DoneTable, OutputTable, QuarantineTable, StateTable, WatchTable,
 };
@@ -26,96 +27,6 @@ pub use schema::schema;
 
 use crate::include::Patterns;
 use crate::outputs::WriteSet;
-
-/// The tables of the frame besides `[[watch]]`.
-const FRAME: [fn() -> SettingsTable; 5] = [
-    SettingsTable::of::<OutputTable>,
-    SettingsTable::of::<StateTable>,
-    SettingsTable::of::<QuarantineTable>,
-    SettingsTable::of::<DoneTable>,
-    SettingsTable::of::<DaemonTable>,
-];
-
-/// A configuration file that is TOML and holds no unknown table; its parts are checked by who needs them.
-#[derive(Clone, Debug)]
-pub struct ConfigFile {
-    path: PathBuf,
-    text: String,
-    tables: Table,
-}
-
-impl ConfigFile {
-    /// Reads a file. `pipeline_tables` are the tables that may stand beside the frame.
-    ///
-    /// # Errors
-    ///
-    /// A file that cannot be read, text that is not TOML, a top-level name that nobody knows.
-    pub fn read(path: &Path, pipeline_tables: &[SettingsTable]) -> Result<Self, ConfigError> {
-        let text = fs::read_to_string(path).map_err(|e| ConfigError::unreadable(path, &e))?;
-        let tables: Table = text.parse().map_err(|e| ConfigError::syntax(path, &text, &e))?;
-        let file = Self { path: path.to_owned(), text, tables };
-
-        let frame: Vec<_> = FRAME.iter().map(|frame| frame().name).collect();
-        let known = || {
-            let pipeline = pipeline_tables.iter().map(|table| table.name);
-            [WatchTable::TABLE].into_iter().chain(frame.iter().copied()).chain(pipeline)
-        };
-        for (name, value) in &file.tables {
-            if known().all(|known| known != name) {
-                let what = if matches!(value, Value::Table(_) | Value::Array(_)) { "table" } else { "key" };
-                return Err(file.locate(SettingsError::unknown(name, what, name, known())));
-            }
-        }
-        Ok(file)
-    }
-
-    /// The tables that belong to the pipeline, untouched.
-    pub fn pipeline_settings(&self) -> Table {
-        let of_frame = |name: &str| name == WatchTable::TABLE || FRAME.iter().any(|frame| frame().name == name);
-        let pipeline = self.tables.iter().filter(|(name, _)| !of_frame(name));
-        pipeline.map(|(name, value)| (name.clone(), value.clone())).collect()
-    }
-
-    /// Gives an error of the pipeline's settings its file and line.
-    pub fn locate(&self, error: SettingsError) -> ConfigError {
-        ConfigError::at(&self.path, &self.text, error)
-    }
-
-    /// The table of `S`, defaults filled in. `at` is where it stands: `output`, `watch.0`.
-    fn table<S: StepSettings>(&self, given: Option<&Value>, at: &str) -> Result<S, ConfigError> {
-        read_table(given).map_err(|mut error: SettingsError| {
-            error.key = error.key.replacen(S::TABLE, at, 1);
-            self.locate(error)
-        })
-    }
-}
-
-fn read_table<S: StepSettings>(given: Option<&Value>) -> Result<S, SettingsError> {
-    let known = [SettingsTable::of::<S>()];
-    let resolve = |given: Option<&Value>| {
-        let given = given.map(|table| (S::TABLE.to_owned(), table.clone()));
-        settings::resolve(&known, Profile::Cad, &given.into_iter().collect())
-    };
-    let in_force = resolve(given).map_err(|mut error| {
-        // A value of the right kind that is none of the words allowed is reported for the table as a
-        // whole; the key to blame is the one that is refused on its own.
-        if error.key == S::TABLE {
-            let alone = |(key, value): (&String, &Value)| {
-                let alone = Table::from_iter([(key.clone(), value.clone())]);
-                let refused = resolve(Some(&Value::Table(alone))).is_err_and(|e| e.key == S::TABLE);
-                refused.then(|| format!("{}.{key}", S::TABLE))
-            };
-            let culprit = given.and_then(Value::as_table).and_then(|table| table.iter().find_map(alone));
-            error.hint = match culprit {
-                Some(_) => "see `seamline config schema`".to_owned(),
-                None => error.hint,
-            };
-            error.key = culprit.unwrap_or(error.key);
-        }
-        error
-    })?;
-    settings::read(&in_force)
-}
 
 /// One watched folder, checked.
 #[derive(Clone, Debug)]
@@ -173,7 +84,7 @@ impl Config {
     /// An unknown key, a value of the wrong kind or out of range, a watched folder that does not exist, and
     /// folders of which one would feed the other.
     pub fn from_file(file: &ConfigFile) -> Result<Self, ConfigError> {
-        let tables = &file.tables;
+        let tables = file.tables();
         let output: OutputTable = file.table(tables.get("output"), "output")?;
         let state: StateTable = file.table(tables.get("state"), "state")?;
         let quarantine: QuarantineTable = file.table(tables.get("quarantine"), "quarantine")?;
@@ -181,10 +92,14 @@ impl Config {
         let daemon: DaemonTable = file.table(tables.get("daemon"), "daemon")?;
 
         let place = |key: &str, dir: &Path| {
-            let base = file.path.parent().unwrap_or(Path::new(""));
+            let base = file.path().parent().unwrap_or(Path::new(""));
             folders::resolve(&base.join(dir)).map_err(|error| {
                 let reason = format!("{} cannot be looked at: {error}", base.join(dir).display());
-                file.locate(SettingsError::new(key, reason, "name a folder that may be read"))
+                file.locate(SettingsError::new(
+                    key,
+                    reason,
+                    "name a folder that may be read",
+                ))
             })
         };
         let config = Self {
@@ -216,11 +131,16 @@ fn watched(
     file: &ConfigFile,
     place: &dyn Fn(&str, &Path) -> Result<PathBuf, ConfigError>,
 ) -> Result<Vec<Watched>, ConfigError> {
-    let refuse = |key: &str, reason: String, hint: &str| file.locate(SettingsError::new(key, reason, hint));
-    let elements = match file.tables.get("watch") {
+    let refuse =
+        |key: &str, reason: String, hint: &str| file.locate(SettingsError::new(key, reason, hint));
+    let elements = match file.tables().get("watch") {
         Some(Value::Array(elements)) if !elements.is_empty() => elements,
         Some(Value::Table(_)) => {
-            return Err(refuse("watch", "is one table".to_owned(), "wants a list: write `[[watch]]`"));
+            return Err(refuse(
+                "watch",
+                "is one table".to_owned(),
+                "wants a list: write `[[watch]]`",
+            ));
         }
         _ => {
             return Err(refuse(
@@ -237,12 +157,25 @@ fn watched(
         let table: WatchTable = file.table(Some(element), &here)?;
         let root = place(&key, &table.root)?;
         if !root.is_dir() {
-            let found = if root.exists() { "is not a folder" } else { "does not exist" };
+            let found = if root.exists() {
+                "is not a folder"
+            } else {
+                "does not exist"
+            };
             let reason = format!("{} {found}", root.display());
-            return Err(refuse(&key, reason, "create the folder, or name one that exists"));
+            return Err(refuse(
+                &key,
+                reason,
+                "create the folder, or name one that exists",
+            ));
         }
-        let include = Patterns::new(&table.include)
-            .map_err(|error| refuse(&format!("{here}.include"), error, "as in `include = [\"*.stl\"]`"))?;
+        let include = Patterns::new(&table.include).map_err(|error| {
+            refuse(
+                &format!("{here}.include"),
+                error,
+                "as in `include = [\"*.stl\"]`",
+            )
+        })?;
         watched.push(Watched {
             root,
             recursive: table.recursive,

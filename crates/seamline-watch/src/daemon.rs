@@ -77,7 +77,9 @@ impl WatchError {
         match self {
             Self::Folder { .. } => "name a folder that may be written, or create it",
             Self::Threads(_) => "set fewer `daemon.workers`, or raise the limit of processes",
-            Self::CrewLost => "this is a mistake in the program: please report what was said before",
+            Self::CrewLost => {
+                "this is a mistake in the program: please report what was said before"
+            }
         }
     }
 }
@@ -99,7 +101,10 @@ pub fn run(
 ) -> Result<Summary, WatchError> {
     let mut lookout = Lookout::new(&config, options.once);
     if options.dry_run {
-        return Ok(Summary { listed: lookout.list(), ..Summary::default() });
+        return Ok(Summary {
+            listed: lookout.list(),
+            ..Summary::default()
+        });
     }
     prepare(&config)?;
     // Before the first look: what comes between the two is heard of, or seen.
@@ -108,7 +113,11 @@ pub fn run(
         info!("watching {}", watched.root.display());
     }
     let crew = Crew::start(config, pipeline).map_err(WatchError::Threads)?;
-    let mut books = Books { lookout, backlog: Backlog::default(), summary: Summary::default() };
+    let mut books = Books {
+        lookout,
+        backlog: Backlog::default(),
+        summary: Summary::default(),
+    };
     let kept = books.keep(&crew, &events, options.once, stop);
     // On an error too: nothing new is begun, and threads that still live are let go.
     crew.begin_nothing_new();
@@ -121,9 +130,19 @@ pub fn run(
 }
 
 fn prepare(config: &Config) -> Result<(), WatchError> {
-    let done = config.watch.iter().any(|watched| watched.after == After::Move).then_some(&config.done);
-    for folder in [&config.output, &config.state, &config.quarantine].into_iter().chain(done) {
-        let refused = |error| WatchError::Folder { path: folder.clone(), error };
+    let done = config
+        .watch
+        .iter()
+        .any(|watched| watched.after == After::Move)
+        .then_some(&config.done);
+    for folder in [&config.output, &config.state, &config.quarantine]
+        .into_iter()
+        .chain(done)
+    {
+        let refused = |error| WatchError::Folder {
+            path: folder.clone(),
+            error,
+        };
         fs::create_dir_all(folder).map_err(refused)?;
         sweep_leftovers(folder);
     }
@@ -146,13 +165,16 @@ impl Books {
         once: bool,
         mut stop: Receiver<()>,
     ) -> Result<(), WatchError> {
+        let mut hints = events.hints().clone();
         loop {
             if self.lookout.wait(Instant::now()).is_zero() {
                 for job in self.lookout.look() {
                     self.backlog.add(job);
                 }
             }
-            while crew.has_room() && let Some(job) = self.backlog.next() {
+            while crew.has_room()
+                && let Some(job) = self.backlog.next()
+            {
                 if !crew.hand_over(job) {
                     return Err(WatchError::CrewLost);
                 }
@@ -162,10 +184,18 @@ impl Books {
                 return Ok(());
             }
             // Room among the jobs comes without a message; it is looked for while jobs wait.
-            let most = if self.backlog.waiting() > 0 { Duration::from_millis(50) } else { Duration::MAX };
+            let most = if self.backlog.waiting() > 0 {
+                Duration::from_millis(50)
+            } else {
+                Duration::MAX
+            };
             select! {
                 recv(crew.outcomes()) -> outcome => self.enter(outcome)?,
-                recv(events.hints()) -> _ => self.lookout.hint(),
+                recv(hints) -> hint => match hint {
+                    Ok(()) => self.lookout.hint(),
+                    // Nothing more will be heard; the periodic listing goes on.
+                    Err(RecvError) => hints = never(),
+                },
                 recv(stop) -> signal => match signal {
                     Ok(()) => break,
                     // Nobody is left who could stop the daemon, which is no reason to stop.
@@ -174,7 +204,11 @@ impl Books {
                 default(self.lookout.wait(Instant::now()).min(most)) => {}
             }
         }
-        info!("stopping: {} running, {} waiting", self.backlog.running(), self.backlog.waiting());
+        info!(
+            "stopping: {} running, {} waiting",
+            self.backlog.running(),
+            self.backlog.waiting()
+        );
         crew.begin_nothing_new();
         self.summary.dropped += self.backlog.drop_waiting();
         while self.backlog.running() > 0 {
@@ -192,12 +226,19 @@ impl Books {
                 self.summary.done += 1;
                 info!("{path}: {patches} patches in {:.2} s", took.as_secs_f64());
             }
-            Outcome::Failed { failure, quarantined, .. } => {
+            Outcome::Failed {
+                failure,
+                quarantined,
+                ..
+            } => {
                 self.summary.failed += 1;
                 let (stage, message, hint) = (failure.stage, &failure.message, &failure.hint);
                 match quarantined {
                     Some(place) => {
-                        warn!("{path}: {stage}: {message}; {hint}; moved to {}", place.display());
+                        warn!(
+                            "{path}: {stage}: {message}; {hint}; moved to {}",
+                            place.display()
+                        );
                     }
                     None => error!("{path}: {stage}: {message}; {hint}"),
                 }

@@ -22,8 +22,13 @@ impl Events {
         match start(watched) {
             Ok(events) => events,
             Err(error) => {
-                warn!("changes are not heard of, folders are listed from time to time instead: {error}");
-                Self { hints: never(), _watcher: None }
+                warn!(
+                    "changes are not heard of, folders are listed from time to time instead: {error}"
+                );
+                Self {
+                    hints: never(),
+                    _watcher: None,
+                }
             }
         }
     }
@@ -43,10 +48,17 @@ fn start(watched: &[Watched]) -> notify::Result<Events> {
         }
     })?;
     for folder in watched {
-        let mode = if folder.recursive { RecursiveMode::Recursive } else { RecursiveMode::NonRecursive };
+        let mode = if folder.recursive {
+            RecursiveMode::Recursive
+        } else {
+            RecursiveMode::NonRecursive
+        };
         watcher.watch(&folder.root, mode)?;
     }
-    Ok(Events { hints, _watcher: Some(watcher) })
+    Ok(Events {
+        hints,
+        _watcher: Some(watcher),
+    })
 }
 
 /// Reading is no change: listing the folder would otherwise be the reason to list it again.
@@ -81,9 +93,18 @@ mod tests {
         std::fs::write(home.path().join("part.stl"), "x").unwrap();
         assert!(events.hints().recv_timeout(Duration::from_secs(10)).is_ok());
 
-        while events.hints().recv_timeout(Duration::from_millis(200)).is_ok() {}
+        while events
+            .hints()
+            .recv_timeout(Duration::from_millis(200))
+            .is_ok()
+        {}
         std::fs::read(home.path().join("part.stl")).unwrap();
         let _ = std::fs::read_dir(home.path()).unwrap().count();
-        assert!(events.hints().recv_timeout(Duration::from_millis(200)).is_err());
+        assert!(
+            events
+                .hints()
+                .recv_timeout(Duration::from_millis(200))
+                .is_err()
+        );
     }
 }

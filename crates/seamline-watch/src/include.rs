@@ -35,10 +35,17 @@ impl Patterns {
                 .literal_separator(true)
                 .build()
                 .map_err(|error| error.to_string())?;
-            if pattern.contains('/') { paths.add(glob) } else { names.add(glob) };
+            if pattern.contains('/') {
+                paths.add(glob)
+            } else {
+                names.add(glob)
+            };
         }
         let build = |set: GlobSetBuilder| set.build().map_err(|error| error.to_string());
-        Ok(Self { names: build(names)?, paths: build(paths)? })
+        Ok(Self {
+            names: build(names)?,
+            paths: build(paths)?,
+        })
     }
 
     /// Is a file taken, by its path below the watched folder?
@@ -77,7 +84,15 @@ mod tests {
 
     #[test]
     fn temporary_and_hidden_names_are_not_finished() {
-        for name in ["a.stl.part", "a.tmp", "a.FilePart", "a.stl.crdownload", "a.stl~", "._a.stl", ".a.stl"] {
+        for name in [
+            "a.stl.part",
+            "a.tmp",
+            "a.FilePart",
+            "a.stl.crdownload",
+            "a.stl~",
+            "._a.stl",
+            ".a.stl",
+        ] {
             assert!(!is_finished_name(OsStr::new(name)), "{name}");
         }
         for name in ["a.stl", "part.obj", "~a.stl", "tmp.ply", "partpart"] {

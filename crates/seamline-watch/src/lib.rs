@@ -19,7 +19,7 @@ pub mod tracker;
 
 pub use config::{Config, ConfigError, ConfigFile};
 pub use daemon::{RunOptions, Summary, WatchError, run};
-pub use load::{LoadError, LoadedMesh, load};
+pub use load::{LoadError, LoadedMesh, load, weld_share};
 pub use outputs::{JobFacts, OutputError, WriteSet, report, write_results};
 pub use scan::scan;
 

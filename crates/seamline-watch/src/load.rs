@@ -74,6 +74,15 @@ impl LoadError {
     }
 }
 
+/// Up to which share of the diagonal of the bounding box the settings in force want vertices welded: their
+/// `mesh.weld_share`, 0 where there is none.
+pub fn weld_share(settings_in_force: &toml::Table) -> f64 {
+    let share = settings_in_force
+        .get("mesh")
+        .and_then(|table| table.get("weld_share"));
+    share.and_then(toml::Value::as_float).unwrap_or(0.0)
+}
+
 /// Reads, hashes, parses and welds one file. Vertices are welded within `weld_share` of the diagonal of the
 /// bounding box; at 0 only those at the very same place are.
 ///
@@ -93,7 +102,14 @@ pub fn load(path: &Path, weld_share: f64) -> Result<LoadedMesh, LoadError> {
     let format = polygons.format;
     let tolerance = tolerance_from_share(&polygons, weld_share);
     let mesh = Arc::new(weld(polygons, tolerance));
-    Ok(LoadedMesh { mesh, hash, format, bytes_len, stamp, took: started.elapsed() })
+    Ok(LoadedMesh {
+        mesh,
+        hash,
+        format,
+        bytes_len,
+        stamp,
+        took: started.elapsed(),
+    })
 }
 
 fn read_at_rest(path: &Path) -> Result<(Vec<u8>, Stamp), LoadError> {
@@ -128,7 +144,10 @@ mod tests {
     #[test]
     fn a_file_is_read_hashed_and_welded() {
         let mesh = loaded(TRIANGLE, 0.0).unwrap();
-        assert_eq!(mesh.hash, blake3::hash(TRIANGLE.as_bytes()).to_hex().as_str());
+        assert_eq!(
+            mesh.hash,
+            blake3::hash(TRIANGLE.as_bytes()).to_hex().as_str()
+        );
         assert_eq!(mesh.bytes_len, TRIANGLE.len() as u64);
         assert_eq!(mesh.format, Format::Obj);
         assert_eq!(mesh.mesh.positions().len(), 4);
@@ -137,6 +156,15 @@ mod tests {
     #[test]
     fn welding_reaches_as_far_as_its_share_of_the_diagonal() {
         assert_eq!(loaded(TRIANGLE, 1e-5).unwrap().mesh.positions().len(), 3);
+    }
+
+    #[test]
+    fn the_share_is_that_of_the_settings_in_force() {
+        assert_eq!(
+            weld_share(&"[mesh]\nweld_share = 1e-6\n".parse().unwrap()),
+            1e-6
+        );
+        assert_eq!(weld_share(&toml::Table::new()), 0.0);
     }
 
     #[test]

@@ -1,6 +1,5 @@
 //! Results as files: for `part.stl` the folder `part.stl.seamline/`, whole or not at all.
 
-mod findings;
 mod folder;
 mod report;
 mod sweep;
@@ -91,17 +90,29 @@ impl FromStr for WriteSet {
     type Err = SettingsError;
 
     fn from_str(list: &str) -> Result<Self, SettingsError> {
-        let words = list.split(',').map(str::trim).filter(|word| !word.is_empty());
+        let words = list
+            .split(',')
+            .map(str::trim)
+            .filter(|word| !word.is_empty());
         let files: Vec<_> = words
             .map(|word| {
                 let known = OutputFile::ALL.into_iter().find(|file| file.word() == word);
                 known.ok_or_else(|| {
-                    SettingsError::unknown("write", "file", word, OutputFile::ALL.map(OutputFile::word))
+                    SettingsError::unknown(
+                        "write",
+                        "file",
+                        word,
+                        OutputFile::ALL.map(OutputFile::word),
+                    )
                 })
             })
             .collect::<Result<_, _>>()?;
         if files.is_empty() {
-            return Err(SettingsError::new("write", "names no file", "wants a list such as `labels,report`"));
+            return Err(SettingsError::new(
+                "write",
+                "names no file",
+                "wants a list such as `labels,report`",
+            ));
         }
         Ok(Self::from(&files[..]))
     }
@@ -130,13 +141,18 @@ impl OutputError {
     /// What to do about it: one sentence.
     pub fn hint(&self) -> &'static str {
         match self {
-            Self::Io { .. } => "check that the output folder may be written and that the disk has room",
+            Self::Io { .. } => {
+                "check that the output folder may be written and that the disk has room"
+            }
             Self::InTheWay { .. } => "move it away, or choose another output folder",
         }
     }
 
     fn io(path: &Path) -> impl FnOnce(io::Error) -> Self {
-        move |error| Self::Io { path: path.to_owned(), error }
+        move |error| Self::Io {
+            path: path.to_owned(),
+            error,
+        }
     }
 }
 
@@ -174,10 +190,15 @@ pub fn write_results(
     Ok(place)
 }
 
-fn write_file(path: &Path, fill: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>) -> io::Result<()> {
+fn write_file(
+    path: &Path,
+    fill: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>,
+) -> io::Result<()> {
     let mut out = BufWriter::new(File::create_new(path)?);
     fill(&mut out)?;
-    out.into_inner().map_err(io::IntoInnerError::into_error)?.sync_all()
+    out.into_inner()
+        .map_err(io::IntoInnerError::into_error)?
+        .sync_all()
 }
 
 fn write_one(
@@ -191,14 +212,22 @@ fn write_one(
         OutputFile::Labels => write_labels(out, &segmentation.face_patches),
         OutputFile::Patches => {
             let of = &segmentation.vertices;
-            let quantities =
-                VertexQuantities { k_min: &of.k_min, k_max: &of.k_max, d_min: &of.d_min, d_max: &of.d_max };
+            let quantities = VertexQuantities {
+                k_min: &of.k_min,
+                k_max: &of.k_max,
+                d_min: &of.d_min,
+                d_max: &of.d_max,
+            };
             write_ply(out, &mesh.polygons, quantities, &segmentation.face_patches)
         }
         OutputFile::Boundaries => {
             let curves = segmentation.boundaries.iter();
-            let curves: Vec<_> =
-                curves.map(|b| PatchBoundary { patches: b.patches, polylines: &b.polylines }).collect();
+            let curves: Vec<_> = curves
+                .map(|b| PatchBoundary {
+                    patches: b.patches,
+                    polylines: &b.polylines,
+                })
+                .collect();
             write_polylines(out, mesh.positions(), &curves)
         }
         OutputFile::Report => {

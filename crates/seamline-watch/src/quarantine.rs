@@ -38,15 +38,25 @@ pub struct Reason<'a> {
 ///
 /// Whatever the file system refuses. If only the reason could not be written, the file is in quarantine all
 /// the same.
-pub fn put_aside(quarantine: &Path, relative: &Path, source: &Path, reason: &Reason<'_>) -> io::Result<PathBuf> {
+pub fn put_aside(
+    quarantine: &Path,
+    relative: &Path,
+    source: &Path,
+    reason: &Reason<'_>,
+) -> io::Result<PathBuf> {
     let place = move_aside(source, &quarantine.join(relative))?;
     let folder = place.parent().unwrap_or(Path::new("."));
-    let mut text = tempfile::Builder::new().prefix(TEMPORARY_START).suffix(TEMPORARY_END).tempfile_in(folder)?;
+    let mut text = tempfile::Builder::new()
+        .prefix(TEMPORARY_START)
+        .suffix(TEMPORARY_END)
+        .tempfile_in(folder)?;
     serde_json::to_writer_pretty(text.as_file_mut(), reason)?;
     text.write_all(b"\n")?;
-    text.as_file().set_permissions(fs::metadata(&place)?.permissions())?;
+    text.as_file()
+        .set_permissions(fs::metadata(&place)?.permissions())?;
     text.as_file().sync_all()?;
-    text.persist(reason_beside(&place)).map_err(|error| error.error)?;
+    text.persist(reason_beside(&place))
+        .map_err(|error| error.error)?;
     sync_folder(folder)?;
     Ok(place)
 }
@@ -82,7 +92,13 @@ mod tests {
         fs::write(&source, "x").unwrap();
         let settings = "[merge]\nthreshold = 2.5\n".parse().unwrap();
         let quarantine = home.path().join("quarantine");
-        let place = put_aside(&quarantine, Path::new("a/part.stl"), &source, &reason(&settings)).unwrap();
+        let place = put_aside(
+            &quarantine,
+            Path::new("a/part.stl"),
+            &source,
+            &reason(&settings),
+        )
+        .unwrap();
 
         assert_eq!(place, quarantine.join("a/part.stl"));
         assert_eq!(fs::read_to_string(&place).unwrap(), "x");
@@ -103,8 +119,13 @@ mod tests {
         for name in ["part.stl", "part-1.stl"] {
             let source = home.path().join("part.stl");
             fs::write(&source, "x").unwrap();
-            let place =
-                put_aside(&home.path().join("q"), Path::new("part.stl"), &source, &reason(&settings)).unwrap();
+            let place = put_aside(
+                &home.path().join("q"),
+                Path::new("part.stl"),
+                &source,
+                &reason(&settings),
+            )
+            .unwrap();
             assert_eq!(place.file_name().unwrap(), name);
             assert!(reason_beside(&place).exists());
         }

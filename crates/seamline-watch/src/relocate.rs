@@ -39,7 +39,10 @@ pub fn move_aside(source: &Path, wanted: &Path) -> io::Result<PathBuf> {
             Err(error) => return Err(error),
         }
     }
-    Err(io::Error::new(io::ErrorKind::AlreadyExists, "too many files of this name"))
+    Err(io::Error::new(
+        io::ErrorKind::AlreadyExists,
+        "too many files of this name",
+    ))
 }
 
 /// `part.stl`, `part-1.stl`, `part-2.stl`, ...
@@ -73,7 +76,10 @@ pub(crate) fn rename_new(from: &Path, to: &Path) -> io::Result<()> {
 fn copy_then_delete(source: &Path, place: &Path) -> io::Result<()> {
     let folder = place.parent().unwrap_or(Path::new("."));
     let modified = fs::metadata(source)?.modified()?;
-    let mut copy = tempfile::Builder::new().prefix(TEMPORARY_START).suffix(TEMPORARY_END).tempfile_in(folder)?;
+    let mut copy = tempfile::Builder::new()
+        .prefix(TEMPORARY_START)
+        .suffix(TEMPORARY_END)
+        .tempfile_in(folder)?;
     let _held = hold(copy.path())?;
     io::copy(&mut File::open(source)?, copy.as_file_mut())?;
     fs::set_permissions(copy.path(), fs::metadata(source)?.permissions())?;
@@ -101,7 +107,12 @@ mod tests {
     fn old_file(path: &Path, text: &str) -> SystemTime {
         let long_ago = SystemTime::UNIX_EPOCH + Duration::from_secs(1_000_000_000);
         fs::write(path, text).unwrap();
-        File::options().write(true).open(path).unwrap().set_modified(long_ago).unwrap();
+        File::options()
+            .write(true)
+            .open(path)
+            .unwrap()
+            .set_modified(long_ago)
+            .unwrap();
         long_ago
     }
 

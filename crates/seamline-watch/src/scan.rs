@@ -74,7 +74,10 @@ fn look_at(
     }
     match fs::metadata(&path) {
         Ok(metadata) if metadata.is_file() => {
-            listing.files.push(FileFact { path, stamp: Stamp::of(&metadata) });
+            listing.files.push(FileFact {
+                path,
+                stamp: Stamp::of(&metadata),
+            });
         }
         Ok(_) => {}
         // Gone since the folder was listed, or a link that leads nowhere.
@@ -94,9 +97,15 @@ mod tests {
         let root = home.path();
         fs::create_dir_all(root.join("a/b")).unwrap();
         fs::create_dir_all(root.join(".trash")).unwrap();
-        for name in
-            ["one.stl", "TWO.STL", "a/b/three.obj", "a/notes.txt", "a/four.stl.part", ".trash/x.stl", "._one.stl"]
-        {
+        for name in [
+            "one.stl",
+            "TWO.STL",
+            "a/b/three.obj",
+            "a/notes.txt",
+            "a/four.stl.part",
+            ".trash/x.stl",
+            "._one.stl",
+        ] {
             fs::write(root.join(name), "x").unwrap();
         }
         home
@@ -112,7 +121,10 @@ mod tests {
 
     #[test]
     fn finished_files_that_match_are_listed_in_order() {
-        assert_eq!(names(folder().path(), true), ["TWO.STL", "a/b/three.obj", "one.stl"]);
+        assert_eq!(
+            names(folder().path(), true),
+            ["TWO.STL", "a/b/three.obj", "one.stl"]
+        );
     }
 
     #[test]
@@ -126,16 +138,24 @@ mod tests {
         symlink(home.path(), home.path().join("a/loop")).unwrap();
         symlink(home.path().join("one.stl"), home.path().join("a/link.stl")).unwrap();
         symlink(home.path().join("nowhere"), home.path().join("broken.stl")).unwrap();
-        assert_eq!(names(home.path(), true), ["TWO.STL", "a/b/three.obj", "a/link.stl", "one.stl"]);
+        assert_eq!(
+            names(home.path(), true),
+            ["TWO.STL", "a/b/three.obj", "a/link.stl", "one.stl"]
+        );
     }
 
     #[test]
     fn pipes_and_folders_with_the_name_of_a_mesh_are_passed_over() {
         let home = folder();
         fs::create_dir(home.path().join("folder.stl")).unwrap();
-        let made = std::process::Command::new("mkfifo").arg(home.path().join("pipe.stl")).status();
+        let made = std::process::Command::new("mkfifo")
+            .arg(home.path().join("pipe.stl"))
+            .status();
         assert!(made.is_ok_and(|status| status.success()));
-        assert_eq!(names(home.path(), true), ["TWO.STL", "a/b/three.obj", "one.stl"]);
+        assert_eq!(
+            names(home.path(), true),
+            ["TWO.STL", "a/b/three.obj", "one.stl"]
+        );
     }
 
     #[test]

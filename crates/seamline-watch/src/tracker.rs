@@ -68,7 +68,10 @@ pub struct StabilityTracker {
 impl StabilityTracker {
     /// A tracker that knows no file yet.
     pub fn new(stable_for: Duration) -> Self {
-        Self { stable_for, files: HashMap::new() }
+        Self {
+            stable_for,
+            files: HashMap::new(),
+        }
     }
 
     /// Takes in a listing of the whole folder and gives the files that have become ready, in the order
@@ -83,21 +86,29 @@ impl StabilityTracker {
         for FileFact { path, stamp } in seen {
             let mut file = match known.remove(path) {
                 Some(file) if file.stamp == *stamp => file,
-                _ => Watched { stamp: *stamp, still_since: now, given: false },
+                _ => Watched {
+                    stamp: *stamp,
+                    still_since: now,
+                    given: false,
+                },
             };
             let still_for = now.saturating_duration_since(file.still_since);
             if !file.given && stamp.size > 0 && still_for >= self.stable_for {
                 file.given = true;
-                ready.push(ReadyFile { path: path.clone(), stamp: *stamp });
+                ready.push(ReadyFile {
+                    path: path.clone(),
+                    stamp: *stamp,
+                });
             }
             self.files.insert(path.clone(), file);
         }
         ready
     }
 
-    /// Takes a file back that was given too early: it must hold still anew.
-    pub fn take_back(&mut self, now: Instant, path: &Path) {
-        if let Some(file) = self.files.get_mut(path) {
+    /// Takes a file back that was given too early in the state `stamp`: it must hold still anew. Of no effect
+    /// if the file has been seen in another state since, for which it waits already.
+    pub fn take_back(&mut self, now: Instant, path: &Path, stamp: Stamp) {
+        if let Some(file) = self.files.get_mut(path).filter(|file| file.stamp == stamp) {
             file.still_since = now;
             file.given = false;
         }
@@ -111,7 +122,10 @@ impl StabilityTracker {
 
     /// How many files are empty.
     pub fn empty(&self) -> usize {
-        self.files.values().filter(|file| file.stamp.size == 0).count()
+        self.files
+            .values()
+            .filter(|file| file.stamp.size == 0)
+            .count()
     }
 }
 

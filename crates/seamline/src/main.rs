@@ -1,1 +1,27 @@
-fn main() {}
+//! Seamline on the command line: cut a mesh, look at one, watch a folder.
+
+mod args;
+mod check_config;
+mod inspect;
+mod list_plugins;
+mod outcome;
+mod segment;
+mod settings;
+mod watch;
+
+use clap::Parser;
+
+use args::{Args, Command};
+use outcome::Outcome;
+
+fn main() -> std::process::ExitCode {
+    let args = Args::parse();
+    let outcome = match &args.command {
+        Command::Segment(segment) => segment::run(segment),
+        Command::Inspect(inspect) => inspect::run(inspect),
+        Command::Watch(watch) => watch::run(watch),
+        Command::Plugins(plugins) => list_plugins::run(plugins),
+        Command::Config { command } => check_config::run(command),
+    };
+    outcome.unwrap_or_else(Outcome::of_error).exit_code()
+}

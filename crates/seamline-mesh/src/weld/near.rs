@@ -47,11 +47,15 @@ pub(super) fn first_nearby(positions: &[DVec3], tolerance: f64) -> Option<Vec<u3
         .map(|range| FineCell::new(positions, &cells[range]))
         .collect();
     for cell in &fine {
-        cell.members.iter().for_each(|&(_, _, vertex)| sets.unite(cell.first(), vertex));
+        cell.members
+            .iter()
+            .for_each(|&(_, _, vertex)| sets.unite(cell.first(), vertex));
     }
     let coarse: Vec<&[FineCell]> = fine.chunk_by(|a, b| a.coarse() == b.coarse()).collect();
-    let at: HashMap<Cell, &[FineCell], FixedState> =
-        coarse.iter().map(|&cells| (cells[0].coarse(), cells)).collect();
+    let at: HashMap<Cell, &[FineCell], FixedState> = coarse
+        .iter()
+        .map(|&cells| (cells[0].coarse(), cells))
+        .collect();
 
     // Cells that touch are most often together, and then many a pair further apart is too.
     for touching in [true, false] {
@@ -70,7 +74,11 @@ pub(super) fn first_nearby(positions: &[DVec3], tolerance: f64) -> Option<Vec<u3
             }
         }
     }
-    Some((0..positions.len() as u32).map(|vertex| sets.first(vertex)).collect())
+    Some(
+        (0..positions.len() as u32)
+            .map(|vertex| sets.first(vertex))
+            .collect(),
+    )
 }
 
 /// Vertices in one fine cell, and the box round them.
@@ -82,8 +90,12 @@ struct FineCell<'a> {
 
 impl<'a> FineCell<'a> {
     fn new(positions: &[DVec3], members: &'a [(Cell, Cell, u32)]) -> Self {
-        let at = members.iter().map(|&(_, _, vertex)| positions[vertex as usize]);
-        let (low, high) = at.fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), p| (p.min(low), p.max(high)));
+        let at = members
+            .iter()
+            .map(|&(_, _, vertex)| positions[vertex as usize]);
+        let (low, high) = at.fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), p| {
+            (p.min(low), p.max(high))
+        });
         Self { members, low, high }
     }
 
@@ -96,7 +108,11 @@ impl<'a> FineCell<'a> {
     }
 
     fn touches(&self, other: &Self) -> bool {
-        self.members[0].1.iter().zip(other.members[0].1).all(|(a, b)| a.abs_diff(b) <= 1)
+        self.members[0]
+            .1
+            .iter()
+            .zip(other.members[0].1)
+            .all(|(a, b)| a.abs_diff(b) <= 1)
     }
 
     /// Whether a vertex of one is within `tolerance` of a vertex of the other.
@@ -104,15 +120,20 @@ impl<'a> FineCell<'a> {
         // A little further, so that rounding keeps nobody out; the distance itself decides.
         let reach = tolerance * (1.0 + 1e-9);
         let near = |from: &Self, to: &Self| -> Vec<DVec3> {
-            let at = from.members.iter().map(|&(_, _, vertex)| positions[vertex as usize]);
-            at.filter(|p| p.distance(p.clamp(to.low, to.high)) <= reach).collect()
+            let at = from
+                .members
+                .iter()
+                .map(|&(_, _, vertex)| positions[vertex as usize]);
+            at.filter(|p| p.distance(p.clamp(to.low, to.high)) <= reach)
+                .collect()
         };
         let ours = near(self, other);
         if ours.is_empty() {
             return false;
         }
         let theirs = near(other, self);
-        ours.iter().any(|p| theirs.iter().any(|q| p.distance(*q) <= tolerance))
+        ours.iter()
+            .any(|p| theirs.iter().any(|q| p.distance(*q) <= tolerance))
     }
 }
 

@@ -35,12 +35,18 @@ impl ConfigError {
     }
 
     pub(super) fn syntax(file: &Path, text: &str, error: &toml::de::Error) -> Self {
-        let line = error.span().map(|span| super::line::line_at(text, span.start));
+        let line = error
+            .span()
+            .map(|span| super::line::line_at(text, span.start));
         Self {
             file: file.to_owned(),
             line,
             key: String::new(),
-            reason: error.message().split_whitespace().collect::<Vec<_>>().join(" "),
+            reason: error
+                .message()
+                .split_whitespace()
+                .collect::<Vec<_>>()
+                .join(" "),
             hint: "the file must be TOML (https://toml.io)".to_owned(),
         }
     }

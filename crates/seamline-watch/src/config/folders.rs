@@ -18,7 +18,11 @@ pub(super) fn resolve(path: &Path) -> io::Result<PathBuf> {
             }
             Err(error) => match exists.parent() {
                 Some(parent) if error.kind() == io::ErrorKind::NotFound => {
-                    exists = if parent.as_os_str().is_empty() { Path::new(".") } else { parent };
+                    exists = if parent.as_os_str().is_empty() {
+                        Path::new(".")
+                    } else {
+                        parent
+                    };
                     if exists == Path::new(".") {
                         return Ok(lexically(exists.canonicalize()?, path));
                     }
@@ -60,7 +64,11 @@ pub(super) fn check(config: &Config) -> Result<(), SettingsError> {
             if seen_again {
                 return Err(SettingsError::new(
                     key,
-                    format!("{} lies inside the watched folder {}", dir.display(), root.display()),
+                    format!(
+                        "{} lies inside the watched folder {}",
+                        dir.display(),
+                        root.display()
+                    ),
                     "what is put there would be taken as input: name a folder beside the watched one, \
                      or watch with `recursive = false`",
                 ));
@@ -73,7 +81,11 @@ pub(super) fn check(config: &Config) -> Result<(), SettingsError> {
             if twice {
                 return Err(SettingsError::new(
                     format!("watch.{at}.root"),
-                    format!("{} is watched already, by way of {}", root.display(), earlier.root.display()),
+                    format!(
+                        "{} is watched already, by way of {}",
+                        root.display(),
+                        earlier.root.display()
+                    ),
                     "name each folder once, with all patterns in one `include`",
                 ));
             }
@@ -91,7 +103,10 @@ mod tests {
         let home = tempfile::tempdir().unwrap();
         let real = home.path().canonicalize().unwrap();
         std::fs::create_dir(real.join("a")).unwrap();
-        assert_eq!(resolve(&real.join("a/../b/c/../d")).unwrap(), real.join("b/d"));
+        assert_eq!(
+            resolve(&real.join("a/../b/c/../d")).unwrap(),
+            real.join("b/d")
+        );
         assert_eq!(resolve(&real.join("a")).unwrap(), real.join("a"));
     }
 }

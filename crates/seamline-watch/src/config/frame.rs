@@ -58,7 +58,11 @@ impl StepSettings for WatchTable {
             "the folder to watch, as in `root = \"inbox\"`",
         )?;
         let patterns = !self.include.is_empty() && include::Patterns::new(&self.include).is_ok();
-        OutOfRange::unless(patterns, "include", "one pattern at least, as in `include = [\"*.stl\"]`")?;
+        OutOfRange::unless(
+            patterns,
+            "include",
+            "one pattern at least, as in `include = [\"*.stl\"]`",
+        )?;
         OutOfRange::unless(
             (1..=3_600_000).contains(&self.stable_for_ms),
             "stable_for_ms",
@@ -81,12 +85,19 @@ impl StepSettings for OutputTable {
     const TABLE: &'static str = "output";
 
     fn defaults(_: Profile) -> Self {
-        Self { dir: "out".into(), write: OutputFile::ALL.to_vec() }
+        Self {
+            dir: "out".into(),
+            write: OutputFile::ALL.to_vec(),
+        }
     }
 
     fn check(&self) -> Result<(), OutOfRange> {
         folder(&self.dir)?;
-        OutOfRange::unless(!self.write.is_empty(), "write", "one at least, as in `write = [\"labels\"]`")
+        OutOfRange::unless(
+            !self.write.is_empty(),
+            "write",
+            "one at least, as in `write = [\"labels\"]`",
+        )
     }
 }
 
@@ -102,7 +113,9 @@ impl StepSettings for StateTable {
     const TABLE: &'static str = "state";
 
     fn defaults(_: Profile) -> Self {
-        Self { dir: "state".into() }
+        Self {
+            dir: "state".into(),
+        }
     }
 
     fn check(&self) -> Result<(), OutOfRange> {
@@ -122,7 +135,9 @@ impl StepSettings for QuarantineTable {
     const TABLE: &'static str = "quarantine";
 
     fn defaults(_: Profile) -> Self {
-        Self { dir: "quarantine".into() }
+        Self {
+            dir: "quarantine".into(),
+        }
     }
 
     fn check(&self) -> Result<(), OutOfRange> {
@@ -166,12 +181,20 @@ impl StepSettings for DaemonTable {
     const TABLE: &'static str = "daemon";
 
     fn defaults(_: Profile) -> Self {
-        Self { workers: 0, queue: 2, rescan_ms: 10_000 }
+        Self {
+            workers: 0,
+            queue: 2,
+            rescan_ms: 10_000,
+        }
     }
 
     fn check(&self) -> Result<(), OutOfRange> {
         OutOfRange::unless(self.workers <= 256, "workers", "0 to 256 workers")?;
-        OutOfRange::unless((1..=1024).contains(&self.queue), "queue", "1 to 1024 meshes")?;
+        OutOfRange::unless(
+            (1..=1024).contains(&self.queue),
+            "queue",
+            "1 to 1024 meshes",
+        )?;
         OutOfRange::unless(
             (100..=3_600_000).contains(&self.rescan_ms),
             "rescan_ms",

@@ -27,7 +27,10 @@ struct Found {
 fn in_table(table: &DeTable<'_>, path: &[&str]) -> Option<Found> {
     let (first, rest) = path.split_first()?;
     let (key, value) = table.iter().find(|(key, _)| key.get_ref() == first)?;
-    let here = Found { start: key.span().start, whole: rest.is_empty() };
+    let here = Found {
+        start: key.span().start,
+        whole: rest.is_empty(),
+    };
     if here.whole {
         return Some(here);
     }
@@ -40,10 +43,15 @@ fn in_value(value: &DeValue<'_>, path: &[&str]) -> Option<Found> {
         DeValue::Array(elements) => match path.split_first() {
             Some((number, rest)) if let Ok(at) = number.parse::<usize>() => {
                 let element = elements.get(at)?;
-                let here = Found { start: element.span().start, whole: rest.is_empty() };
+                let here = Found {
+                    start: element.span().start,
+                    whole: rest.is_empty(),
+                };
                 in_value(element.get_ref(), rest).or(Some(here))
             }
-            _ => elements.iter().find_map(|e| in_value(e.get_ref(), path).filter(|found| found.whole)),
+            _ => elements
+                .iter()
+                .find_map(|e| in_value(e.get_ref(), path).filter(|found| found.whole)),
         },
         _ => None,
     }

@@ -3,8 +3,8 @@
 use seamline_ecs::settings::{Profile, SettingsTable};
 use serde_json::{Map, Value, json};
 
+use super::file::FRAME;
 use super::frame::WatchTable;
-use super::FRAME;
 
 /// The JSON schema of a configuration file: the frame, and the tables of the pipeline.
 ///
@@ -14,8 +14,15 @@ pub fn schema(pipeline_tables: &[SettingsTable]) -> Value {
     let mut properties = Map::new();
     let mut watch = table(&SettingsTable::of::<WatchTable>(), &mut definitions);
     watch["required"] = json!(["root"]);
-    properties.insert("watch".to_owned(), json!({ "type": "array", "items": watch }));
-    for known in FRAME.iter().map(|frame| frame()).chain(pipeline_tables.iter().copied()) {
+    properties.insert(
+        "watch".to_owned(),
+        json!({ "type": "array", "items": watch }),
+    );
+    for known in FRAME
+        .iter()
+        .map(|frame| frame())
+        .chain(pipeline_tables.iter().copied())
+    {
         properties.insert(known.name.to_owned(), table(&known, &mut definitions));
     }
     json!({
@@ -40,7 +47,9 @@ fn table(known: &SettingsTable, definitions: &mut Map<String, Value>) -> Value {
         }
         if let Some(Value::Object(keys)) = object.get_mut("properties") {
             for (key, of_key) in keys {
-                let default = defaults.get(key).filter(|_| (known.name, key.as_str()) != ("watch", "root"));
+                let default = defaults
+                    .get(key)
+                    .filter(|_| (known.name, key.as_str()) != ("watch", "root"));
                 if let (Some(default), Some(of_key)) = (default, of_key.as_object_mut()) {
                     of_key.insert("default".to_owned(), default.clone());
                 }
@@ -61,15 +70,25 @@ mod tests {
         for table in ["watch", "output", "state", "quarantine", "done", "daemon"] {
             assert!(keys.iter().any(|key| *key == table), "{table}");
         }
-        assert_eq!(schema["properties"]["watch"]["items"]["properties"]["stable_for_ms"]["default"], 2000);
-        assert_eq!(schema["properties"]["watch"]["items"]["required"], json!(["root"]));
+        assert_eq!(
+            schema["properties"]["watch"]["items"]["properties"]["stable_for_ms"]["default"],
+            2000
+        );
+        assert_eq!(
+            schema["properties"]["watch"]["items"]["required"],
+            json!(["root"])
+        );
     }
 
     #[test]
     fn every_reference_of_the_schema_leads_somewhere() {
         let schema = schema(&[]);
         let text = schema.to_string();
-        for name in text.split("\"#/$defs/").skip(1).filter_map(|rest| rest.split('"').next()) {
+        for name in text
+            .split("\"#/$defs/")
+            .skip(1)
+            .filter_map(|rest| rest.split('"').next())
+        {
             assert!(schema["$defs"].get(name).is_some(), "{name}");
         }
         assert!(schema["$defs"].get("After").is_some());

@@ -1,3 +1,7 @@
+use std::fs;
+
+use seamline_ecs::settings::{Profile, StepSettings};
+
 use super::*;
 
 struct Home(tempfile::TempDir);
@@ -20,7 +24,9 @@ impl Home {
         let error = self.load(text).unwrap_err();
         assert!(!error.to_string().contains('\n'));
         let home = self.0.path().canonicalize().unwrap();
-        let text = error.to_string().replace(&format!("{}/", home.display()), "");
+        let text = error
+            .to_string()
+            .replace(&format!("{}/", home.display()), "");
         text.replace(&format!("{}/", self.0.path().display()), "")
     }
 }
@@ -60,8 +66,15 @@ fn what_is_not_given_has_its_default_beside_the_file() {
 
 #[test]
 fn tables_of_the_pipeline_are_handed_on_untouched() {
-    let config = Home::new().load(&format!("{FRAME_TEXT}[merge]\nthreshold = 3\nwhatever = 'x'\n")).unwrap();
-    assert_eq!(config.pipeline_settings()["merge"]["whatever"].as_str(), Some("x"));
+    let config = Home::new()
+        .load(&format!(
+            "{FRAME_TEXT}[merge]\nthreshold = 3\nwhatever = 'x'\n"
+        ))
+        .unwrap();
+    assert_eq!(
+        config.pipeline_settings()["merge"]["whatever"].as_str(),
+        Some("x")
+    );
     assert!(!config.pipeline_settings().contains_key("watch"));
 }
 
@@ -77,9 +90,15 @@ fn an_unknown_key_names_file_line_and_the_nearest_known_key() {
 #[test]
 fn an_unknown_table_names_the_nearest_of_frame_and_pipeline() {
     let frame = Home::new().refusal(&format!("{FRAME_TEXT}[outptu]\ndir = 'x'\n"));
-    assert_eq!(frame, "demo.toml:4: outptu: unknown table `outptu`; did you mean `output`?");
+    assert_eq!(
+        frame,
+        "demo.toml:4: outptu: unknown table `outptu`; did you mean `output`?"
+    );
     let pipeline = Home::new().refusal(&format!("{FRAME_TEXT}[merg]\n"));
-    assert_eq!(pipeline, "demo.toml:4: merg: unknown table `merg`; did you mean `merge`?");
+    assert_eq!(
+        pipeline,
+        "demo.toml:4: merg: unknown table `merg`; did you mean `merge`?"
+    );
 }
 
 #[test]
@@ -94,10 +113,16 @@ fn a_value_of_the_wrong_kind_says_what_kind_is_right() {
 #[test]
 fn a_word_that_is_not_allowed_is_refused_with_the_words_that_are() {
     let after = Home::new().refusal(&format!("{FRAME_TEXT}after = \"mvoe\"\n"));
-    assert!(after.starts_with("demo.toml:4: watch.after: unknown variant `mvoe`"), "{after}");
+    assert!(
+        after.starts_with("demo.toml:4: watch.after: unknown variant `mvoe`"),
+        "{after}"
+    );
     assert!(after.contains("`keep`, `move`"), "{after}");
     let write = Home::new().refusal(&format!("{FRAME_TEXT}[output]\nwrite = [\"lables\"]\n"));
-    assert!(write.starts_with("demo.toml:5: output.write: unknown variant `lables`"), "{write}");
+    assert!(
+        write.starts_with("demo.toml:5: output.write: unknown variant `lables`"),
+        "{write}"
+    );
 }
 
 #[test]
@@ -119,7 +144,11 @@ fn a_watched_folder_that_does_not_exist_is_refused() {
 
 #[test]
 fn output_inside_watch_is_refused() {
-    for (table, key) in [("output", "output.dir"), ("quarantine", "quarantine.dir"), ("done", "done.dir")] {
+    for (table, key) in [
+        ("output", "output.dir"),
+        ("quarantine", "quarantine.dir"),
+        ("done", "done.dir"),
+    ] {
         let text = format!("{FRAME_TEXT}[{table}]\ndir = \"inbox/made/here\"\n");
         let refusal = Home::new().refusal(&text);
         let start = format!("demo.toml:5: {key}: inbox/made/here lies inside the watched folder");
@@ -133,13 +162,19 @@ fn output_inside_watch_is_refused() {
 fn a_folder_watched_twice_is_refused() {
     let text = "[[watch]]\nroot = \"inbox\"\n[[watch]]\nroot = \"./inbox/../inbox\"\n";
     let refusal = Home::new().refusal(text);
-    assert!(refusal.starts_with("demo.toml:4: watch.root: inbox is watched already"), "{refusal}");
+    assert!(
+        refusal.starts_with("demo.toml:4: watch.root: inbox is watched already"),
+        "{refusal}"
+    );
 }
 
 #[test]
 fn a_single_table_in_place_of_the_list_is_refused() {
     let refusal = Home::new().refusal("[watch]\nroot = \"inbox\"\n");
-    assert_eq!(refusal, "demo.toml:1: watch: is one table; wants a list: write `[[watch]]`");
+    assert_eq!(
+        refusal,
+        "demo.toml:1: watch: is one table; wants a list: write `[[watch]]`"
+    );
 }
 
 #[test]

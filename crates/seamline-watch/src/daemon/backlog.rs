@@ -15,7 +15,11 @@ pub(super) struct Backlog {
 impl Backlog {
     /// Takes a job in. A waiting one for the same path is replaced: only the latest content counts.
     pub(super) fn add(&mut self, job: Job) {
-        match self.waiting.iter_mut().find(|waiting| waiting.path == job.path) {
+        match self
+            .waiting
+            .iter_mut()
+            .find(|waiting| waiting.path == job.path)
+        {
             Some(waiting) => *waiting = job,
             None => self.waiting.push_back(job),
         }
@@ -24,7 +28,10 @@ impl Backlog {
     /// Gives the first job whose path is not being worked on, and counts it as running. Were two runs on
     /// one path under way, the results of the older content might be written last.
     pub(super) fn next(&mut self) -> Option<Job> {
-        let at = self.waiting.iter().position(|job| !self.running.contains(&job.path))?;
+        let at = self
+            .waiting
+            .iter()
+            .position(|job| !self.running.contains(&job.path))?;
         let job = self.waiting.remove(at)?;
         self.running.insert(job.path.clone());
         Some(job)
@@ -59,8 +66,18 @@ mod tests {
     use crate::tracker::Stamp;
 
     fn job(name: &str, size: u64) -> Job {
-        let stamp = Stamp { size, modified: SystemTime::UNIX_EPOCH, identity: (1, 1) };
-        Job { path: name.into(), relative: name.into(), stamp, root: 0, since: Instant::now() }
+        let stamp = Stamp {
+            size,
+            modified: SystemTime::UNIX_EPOCH,
+            identity: (1, 1),
+        };
+        Job {
+            path: name.into(),
+            relative: name.into(),
+            stamp,
+            root: 0,
+            since: Instant::now(),
+        }
     }
 
     #[test]

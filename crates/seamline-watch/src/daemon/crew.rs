@@ -15,7 +15,7 @@ use seamline_ecs::{Pipeline, Worker};
 use super::finish::finish;
 use super::job::{Failure, Finished, Job, Loaded, Outcome};
 use crate::config::Config;
-use crate::load::{LoadError, load};
+use crate::load::{LoadError, load, weld_share};
 
 /// What all threads know.
 pub(super) struct Shared {
@@ -27,13 +27,6 @@ pub(super) struct Shared {
 impl Shared {
     fn is_stopping(&self) -> bool {
         self.stopping.load(Ordering::Relaxed)
-    }
-
-    /// Up to which share of the diagonal vertices are welded.
-    fn weld_share(&self) -> f64 {
-        let mesh = self.pipeline.settings_in_force().get("mesh");
-        let share = mesh.and_then(|table| table.get("weld_share"));
-        share.and_then(toml::Value::as_float).unwrap_or(0.0)
     }
 }
 
@@ -48,7 +41,11 @@ pub(super) struct Crew {
 impl Crew {
     /// Starts the threads.
     pub(super) fn start(config: Config, pipeline: Arc<Pipeline>) -> io::Result<Self> {
-        let shared = Arc::new(Shared { config, pipeline, stopping: AtomicBool::new(false) });
+        let shared = Arc::new(Shared {
+            config,
+            pipeline,
+            stopping: AtomicBool::new(false),
+        });
         let queue = shared.config.queue;
         let (jobs, to_read) = bounded(queue);
         let (loaded, to_cut) = bounded(queue);
@@ -64,17 +61,31 @@ impl Crew {
         for number in 0..shared.config.workers {
             let (shared, to_cut) = (shared.clone(), to_cut.clone());
             let (finished, outcome) = (finished.clone(), outcome.clone());
-            spawn(format!("cut-{number}"), Box::new(move || cut_all(&shared, &to_cut, &finished, &outcome)))?;
+            spawn(
+                format!("cut-{number}"),
+                Box::new(move || cut_all(&shared, &to_cut, &finished, &outcome)),
+            )?;
         }
         {
             let (shared, outcome) = (shared.clone(), outcome.clone());
-            spawn("read".to_owned(), Box::new(move || read_all(&shared, &to_read, &loaded, &finished, &outcome)))?;
+            spawn(
+                "read".to_owned(),
+                Box::new(move || read_all(&shared, &to_read, &loaded, &finished, &outcome)),
+            )?;
         }
         {
             let shared = shared.clone();
-            spawn("write".to_owned(), Box::new(move || write_all(&shared, &to_write, &outcome)))?;
+            spawn(
+                "write".to_owned(),
+                Box::new(move || write_all(&shared, &to_write, &outcome)),
+            )?;
         }
-        Ok(Self { jobs, outcomes, threads, shared })
+        Ok(Self {
+            jobs,
+            outcomes,
+            threads,
+            shared,
+        })
     }
 
     /// Is there room for another job? Only the caller puts jobs in, so that the room stays.
@@ -114,15 +125,20 @@ fn read_all(
     finished: &Sender<Finished>,
     outcome: &Sender<Outcome>,
 ) {
+    let share = weld_share(shared.pipeline.settings_in_force());
     for job in jobs {
         let handed_on = if shared.is_stopping() {
             outcome.send(Outcome::Dropped { job }).is_ok()
         } else if let Some(failure) = taken_by_another_root(shared, &job) {
             finished.send(Finished::Failed { job, failure }).is_ok()
         } else {
-            match guarded("read", || load(&job.path, shared.weld_share())) {
-                Ok(Ok(mesh)) if mesh.stamp == job.stamp => loaded.send(Loaded { job, mesh }).is_ok(),
-                Ok(Ok(_) | Err(LoadError::Changed)) => outcome.send(Outcome::Changed { job }).is_ok(),
+            match guarded("read", || load(&job.path, share)) {
+                Ok(Ok(mesh)) if mesh.stamp == job.stamp => {
+                    loaded.send(Loaded { job, mesh }).is_ok()
+                }
+                Ok(Ok(_) | Err(LoadError::Changed)) => {
+                    outcome.send(Outcome::Changed { job }).is_ok()
+                }
                 Ok(Err(LoadError::Io(error))) if error.kind() == io::ErrorKind::NotFound => {
                     outcome.send(Outcome::Gone { job }).is_ok()
                 }
@@ -156,14 +172,22 @@ fn taken_by_another_root(shared: &Shared, job: &Job) -> Option<Failure> {
     })?;
     Some(Failure {
         stage: "read",
-        message: format!("its results would replace those of {}", other.root.join(&job.relative).display()),
+        message: format!(
+            "its results would replace those of {}",
+            other.root.join(&job.relative).display()
+        ),
         hint: "give one of the two files another name".to_owned(),
         hash: None,
         of_file: true,
     })
 }
 
-fn cut_all(shared: &Shared, to_cut: &Receiver<Loaded>, finished: &Sender<Finished>, outcome: &Sender<Outcome>) {
+fn cut_all(
+    shared: &Shared,
+    to_cut: &Receiver<Loaded>,
+    finished: &Sender<Finished>,
+    outcome: &Sender<Outcome>,
+) {
     let mut kept = None;
     for Loaded { job, mesh } in to_cut {
         if shared.is_stopping() {
@@ -177,7 +201,13 @@ fn cut_all(shared: &Shared, to_cut: &Receiver<Loaded>, finished: &Sender<Finishe
             let worker = worker.get_or_insert_with(|| Worker::new(shared.pipeline.clone()));
             worker.segment(mesh.mesh.clone())
         });
-        let failed = |stage, message, hint| Failure { stage, message, hint, hash: None, of_file: true };
+        let failed = |stage, message, hint| Failure {
+            stage,
+            message,
+            hint,
+            hash: None,
+            of_file: true,
+        };
         let cut = match cut {
             Ok(Ok(segmentation)) => Ok(Box::new(segmentation)),
             Ok(Err(error)) => Err(failed(error.stage.name(), error.message, error.hint)),
@@ -190,8 +220,18 @@ fn cut_all(shared: &Shared, to_cut: &Receiver<Loaded>, finished: &Sender<Finishe
         };
         kept = worker;
         let result = match cut {
-            Ok(segmentation) => Finished::Cut { job, mesh, segmentation },
-            Err(failure) => Finished::Failed { job, failure: Failure { hash: Some(mesh.hash), ..failure } },
+            Ok(segmentation) => Finished::Cut {
+                job,
+                mesh,
+                segmentation,
+            },
+            Err(failure) => Finished::Failed {
+                job,
+                failure: Failure {
+                    hash: Some(mesh.hash),
+                    ..failure
+                },
+            },
         };
         if finished.send(result).is_err() {
             return;
@@ -212,11 +252,16 @@ fn guarded<T>(stage: &'static str, work: impl FnOnce() -> T) -> Result<T, Failur
     catch_unwind(AssertUnwindSafe(work)).map_err(|panic| {
         let said = panic.downcast_ref::<&str>().copied();
         let said = said.or_else(|| panic.downcast_ref::<String>().map(String::as_str));
-        let said = said.unwrap_or("no message").split_whitespace().collect::<Vec<_>>().join(" ");
+        let said = said
+            .unwrap_or("no message")
+            .split_whitespace()
+            .collect::<Vec<_>>()
+            .join(" ");
         Failure {
             stage,
             message: format!("panicked: {said}"),
-            hint: "this is a mistake in the program or a plugin: please report it with the file".to_owned(),
+            hint: "this is a mistake in the program or a plugin: please report it with the file"
+                .to_owned(),
             hash: None,
             of_file: true,
         }

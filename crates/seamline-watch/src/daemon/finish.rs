@@ -20,13 +20,24 @@ use crate::tracker::Stamp;
 /// Does what is left to do for a job, and says how it ended.
 pub(super) fn finish(shared: &Shared, finished: Finished) -> Outcome {
     match finished {
-        Finished::Cut { job, mesh, segmentation } => match write(shared, &job, &mesh, &segmentation) {
+        Finished::Cut {
+            job,
+            mesh,
+            segmentation,
+        } => match write(shared, &job, &mesh, &segmentation) {
             Ok(()) => {
                 if let Err(error) = deal_with_input(shared, &job) {
-                    warn!("{} is done but stays where it is: {error}", job.path.display());
+                    warn!(
+                        "{} is done but stays where it is: {error}",
+                        job.path.display()
+                    );
                 }
                 let took = job.since.elapsed();
-                Outcome::Done { job, patches: segmentation.patches.len(), took }
+                Outcome::Done {
+                    job,
+                    patches: segmentation.patches.len(),
+                    took,
+                }
             }
             // The disk is at fault and not the file, which therefore stays.
             Err(error) => {
@@ -37,12 +48,23 @@ pub(super) fn finish(shared: &Shared, finished: Finished) -> Outcome {
                     hash: Some(mesh.hash),
                     of_file: false,
                 };
-                Outcome::Failed { job, failure, quarantined: None }
+                Outcome::Failed {
+                    job,
+                    failure,
+                    quarantined: None,
+                }
             }
         },
         Finished::Failed { job, failure } => {
-            let quarantined = failure.of_file.then(|| quarantine(shared, &job, &failure)).flatten();
-            Outcome::Failed { job, failure, quarantined }
+            let quarantined = failure
+                .of_file
+                .then(|| quarantine(shared, &job, &failure))
+                .flatten();
+            Outcome::Failed {
+                job,
+                failure,
+                quarantined,
+            }
         }
     }
 }
@@ -62,9 +84,20 @@ fn write(
         program_version: VERSION,
         read_seconds: loaded.took.as_secs_f64(),
     };
-    let parent = shared.config.output.join(job.relative.parent().unwrap_or(Path::new("")));
+    let parent = shared
+        .config
+        .output
+        .join(job.relative.parent().unwrap_or(Path::new("")));
     let name = job.relative.file_name().unwrap_or_default();
-    write_results(&parent, name, &loaded.mesh, segmentation, &about, shared.config.write).map(|_| ())
+    write_results(
+        &parent,
+        name,
+        &loaded.mesh,
+        segmentation,
+        &about,
+        shared.config.write,
+    )
+    .map(|_| ())
 }
 
 /// Does the path still lead to what was read? If not, something new came in its place, which is a job of its
@@ -100,6 +133,11 @@ fn quarantine(shared: &Shared, job: &Job, failure: &Failure) -> Option<PathBuf> 
         settings: shared.pipeline.settings_in_force(),
     };
     put_aside(&shared.config.quarantine, &job.relative, &job.path, &reason)
-        .inspect_err(|error| warn!("{} could not be put into quarantine: {error}", job.path.display()))
+        .inspect_err(|error| {
+            warn!(
+                "{} could not be put into quarantine: {error}",
+                job.path.display()
+            )
+        })
         .ok()
 }

@@ -47,7 +47,11 @@ pub(super) struct Loaded {
 /// A job on its way to the writer.
 pub(super) enum Finished {
     /// Patches to be written.
-    Cut { job: Job, mesh: LoadedMesh, segmentation: Box<Segmentation> },
+    Cut {
+        job: Job,
+        mesh: LoadedMesh,
+        segmentation: Box<Segmentation>,
+    },
     /// A failure to be dealt with.
     Failed { job: Job, failure: Failure },
 }
@@ -55,9 +59,17 @@ pub(super) enum Finished {
 /// How a job ended.
 pub(super) enum Outcome {
     /// Results are written.
-    Done { job: Job, patches: usize, took: Duration },
+    Done {
+        job: Job,
+        patches: usize,
+        took: Duration,
+    },
     /// There are none.
-    Failed { job: Job, failure: Failure, quarantined: Option<PathBuf> },
+    Failed {
+        job: Job,
+        failure: Failure,
+        quarantined: Option<PathBuf>,
+    },
     /// The file changed before it was read: it was not ready after all.
     Changed { job: Job },
     /// The file went away before it was read.

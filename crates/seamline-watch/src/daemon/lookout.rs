@@ -59,9 +59,15 @@ impl Lookout {
 
     /// How long until the next look is due.
     pub(super) fn wait(&self, now: Instant) -> Duration {
-        let Some(looked_at) = self.looked_at else { return Duration::ZERO };
+        let Some(looked_at) = self.looked_at else {
+            return Duration::ZERO;
+        };
         let soon = self.hinted || !self.is_settled();
-        let every = if soon { self.glance_every } else { self.rescan_every };
+        let every = if soon {
+            self.glance_every
+        } else {
+            self.rescan_every
+        };
         (looked_at + every).saturating_duration_since(now)
     }
 
@@ -71,20 +77,29 @@ impl Lookout {
         let mut ready = Vec::new();
         let mut seen = HashSet::new();
         for (number, root) in self.roots.iter_mut().enumerate() {
-            let Some(mut listing) = root.list() else { continue };
+            let Some(mut listing) = root.list() else {
+                continue;
+            };
             match &self.only {
                 Some(only) => listing.files.retain(|file| only.contains(&file.path)),
-                None if self.once => seen.extend(listing.files.iter().map(|file| file.path.clone())),
+                None if self.once => {
+                    seen.extend(listing.files.iter().map(|file| file.path.clone()))
+                }
                 None => {}
             }
             let now = Instant::now();
-            ready.extend(root.tracker.step(now, &listing.files).into_iter().map(|file| Job {
-                relative: root.relative(&file.path),
-                path: file.path,
-                stamp: file.stamp,
-                root: number,
-                since: now,
-            }));
+            ready.extend(
+                root.tracker
+                    .step(now, &listing.files)
+                    .into_iter()
+                    .map(|file| Job {
+                        relative: root.relative(&file.path),
+                        path: file.path,
+                        stamp: file.stamp,
+                        root: number,
+                        since: now,
+                    }),
+            );
         }
         if self.once {
             self.only.get_or_insert(seen);
@@ -97,12 +112,17 @@ impl Lookout {
     pub(super) fn list(&mut self) -> Vec<PathBuf> {
         let listings = self.roots.iter_mut().filter_map(Root::list);
         let files = listings.flat_map(|listing| listing.files);
-        files.filter(|file| file.stamp.size > 0).map(|file| file.path).collect()
+        files
+            .filter(|file| file.stamp.size > 0)
+            .map(|file| file.path)
+            .collect()
     }
 
     /// The job's file was not ready after all.
     pub(super) fn take_back(&mut self, job: &Job) {
-        self.roots[job.root].tracker.take_back(Instant::now(), &job.path);
+        self.roots[job.root]
+            .tracker
+            .take_back(Instant::now(), &job.path, job.stamp);
     }
 
     /// Is no file left that is still to become ready? Empty files, which wait for content, apart.
@@ -118,12 +138,18 @@ impl Lookout {
 
 impl Root {
     fn relative(&self, path: &Path) -> PathBuf {
-        path.strip_prefix(&self.watched.root).unwrap_or(path).to_owned()
+        path.strip_prefix(&self.watched.root)
+            .unwrap_or(path)
+            .to_owned()
     }
 
     /// Lists the folder; nothing if it cannot be read. What cannot is said when it begins and when it ends.
     fn list(&mut self) -> Option<Listing> {
-        let listed = scan(&self.watched.root, self.watched.recursive, &self.watched.include);
+        let listed = scan(
+            &self.watched.root,
+            self.watched.recursive,
+            &self.watched.include,
+        );
         let (listing, unreadable) = match listed {
             Ok(mut listing) => {
                 let unreadable = std::mem::take(&mut listing.unreadable);
@@ -136,7 +162,10 @@ impl Root {
     }
 
     fn say(&mut self, unreadable: &[(PathBuf, io::Error)]) {
-        for (path, error) in unreadable.iter().filter(|(path, _)| !self.unreadable.contains(path)) {
+        for (path, error) in unreadable
+            .iter()
+            .filter(|(path, _)| !self.unreadable.contains(path))
+        {
             warn!("{} cannot be read: {error}", path.display());
         }
         let now: HashSet<_> = unreadable.iter().map(|(path, _)| path.clone()).collect();

@@ -32,7 +32,11 @@ impl WholeFolder {
                 .permissions(Permissions::from_mode(0o777))
                 .tempdir_in(parent)?;
             let _held = hold(temporary.path())?;
-            Ok(Self { place: place.to_owned(), temporary, _held })
+            Ok(Self {
+                place: place.to_owned(),
+                temporary,
+                _held,
+            })
         };
         begin().map_err(OutputError::io(place))
     }
@@ -44,9 +48,16 @@ impl WholeFolder {
 
     /// Gives it its name. What had the name before is deleted.
     pub(super) fn commit(self) -> Result<(), OutputError> {
-        let Self { place, temporary, _held } = self;
+        let Self {
+            place,
+            temporary,
+            _held,
+        } = self;
         let parent = place.parent().unwrap_or(Path::new("."));
-        let io = |error| OutputError::Io { path: place.clone(), error };
+        let io = |error| OutputError::Io {
+            path: place.clone(),
+            error,
+        };
         sync_folder(temporary.path()).map_err(io)?;
         match rename_new(temporary.path(), &place) {
             Err(error) if error.kind() == io::ErrorKind::AlreadyExists => {
@@ -80,7 +91,10 @@ fn exchange(fresh: &Path, place: &Path) -> io::Result<()> {
 /// one.
 fn exchange_in_steps(fresh: &Path, place: &Path) -> io::Result<()> {
     let parent = place.parent().unwrap_or(Path::new("."));
-    let aside = tempfile::Builder::new().prefix(TEMPORARY_START).suffix(TEMPORARY_END).tempdir_in(parent)?;
+    let aside = tempfile::Builder::new()
+        .prefix(TEMPORARY_START)
+        .suffix(TEMPORARY_END)
+        .tempdir_in(parent)?;
     let old = aside.path().join("old");
     fs::rename(place, &old)?;
     if let Err(error) = fs::rename(fresh, place) {
@@ -102,7 +116,9 @@ mod tests {
 
     fn names(folder: &Path) -> Vec<String> {
         let entries = fs::read_dir(folder).unwrap();
-        entries.map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect()
+        entries
+            .map(|entry| entry.unwrap().file_name().into_string().unwrap())
+            .collect()
     }
 
     #[test]
@@ -152,7 +168,10 @@ mod tests {
         let home = tempfile::tempdir().unwrap();
         let place = home.path().join("part.seamline");
         fs::write(&place, "mine").unwrap();
-        assert!(matches!(write(&place, "two"), Err(OutputError::InTheWay { .. })));
+        assert!(matches!(
+            write(&place, "two"),
+            Err(OutputError::InTheWay { .. })
+        ));
         assert_eq!(fs::read_to_string(&place).unwrap(), "mine");
         assert_eq!(names(home.path()), ["part.seamline"]);
     }

@@ -7,7 +7,7 @@ use std::path::Path;
 
 use seamline_ecs::Segmentation;
 use seamline_ecs::results::{Boundary, PatchReport};
-use seamline_mesh::{Format, Mesh};
+use seamline_mesh::{Findings, Format, Mesh};
 use serde::Serialize;
 use serde_json::{Map, Value, json};
 
@@ -39,7 +39,7 @@ struct Report<'a> {
     program: Program<'a>,
     input: Input<'a>,
     settings: &'a toml::Table,
-    findings: Value,
+    findings: &'a Findings,
     stages: Vec<Value>,
     patches: &'a [PatchReport],
     boundaries: &'a [Boundary],
@@ -68,7 +68,10 @@ struct Input<'a> {
 pub fn report(mesh: &Mesh, segmentation: &Segmentation, about: &JobFacts<'_>) -> Value {
     let report = Report {
         schema_version: REPORT_SCHEMA_VERSION,
-        program: Program { name: "seamline", version: about.program_version },
+        program: Program {
+            name: "seamline",
+            version: about.program_version,
+        },
         input: Input {
             path: about.path.display().to_string(),
             blake3: about.hash,
@@ -80,7 +83,7 @@ pub fn report(mesh: &Mesh, segmentation: &Segmentation, about: &JobFacts<'_>) ->
             units: "as in the file",
         },
         settings: about.settings,
-        findings: super::findings::findings(segmentation),
+        findings: &segmentation.findings,
         stages: stages(segmentation),
         patches: &segmentation.patches,
         boundaries: &segmentation.boundaries,
@@ -92,14 +95,20 @@ pub fn report(mesh: &Mesh, segmentation: &Segmentation, about: &JobFacts<'_>) ->
 /// Stages without their times.
 fn stages(segmentation: &Segmentation) -> Vec<Value> {
     let stages = segmentation.stages.iter();
-    stages.map(|record| json!({ "stage": record.stage, "counts": record.counts })).collect()
+    stages
+        .map(|record| json!({ "stage": record.stage, "counts": record.counts }))
+        .collect()
 }
 
 /// All times, in the order spent, and their sum.
 fn seconds(segmentation: &Segmentation, read: f64) -> Map<String, Value> {
-    let stages = segmentation.stages.iter().map(|record| (record.stage.name(), record.seconds));
+    let stages = segmentation
+        .stages
+        .iter()
+        .map(|record| (record.stage.name(), record.seconds));
     let spent: Vec<_> = [("read", read)].into_iter().chain(stages).collect();
     let total = spent.iter().map(|(_, seconds)| seconds).sum();
     let all = spent.into_iter().chain([("total", total)]);
-    all.map(|(name, seconds)| (name.to_owned(), json!(seconds))).collect()
+    all.map(|(name, seconds)| (name.to_owned(), json!(seconds)))
+        .collect()
 }

@@ -28,7 +28,9 @@ pub(crate) fn hold(path: &Path) -> io::Result<Option<File>> {
 /// Deletes what crashed runs left unfinished in a folder and the folders below it. Gives how many were
 /// deleted. A folder that is not there has no leftovers; what cannot be deleted is said and left.
 pub fn sweep_leftovers(folder: &Path) -> usize {
-    let Ok(entries) = fs::read_dir(folder) else { return 0 };
+    let Ok(entries) = fs::read_dir(folder) else {
+        return 0;
+    };
     let mut swept = 0;
     for entry in entries.flatten() {
         let name = entry.file_name();
@@ -44,11 +46,23 @@ pub fn sweep_leftovers(folder: &Path) -> usize {
 }
 
 fn sweep_one(path: &Path, is_folder: bool) -> bool {
-    let Ok(Some(_held)) = hold(path) else { return false };
-    let deleted = if is_folder { fs::remove_dir_all(path) } else { fs::remove_file(path) };
+    let Ok(Some(_held)) = hold(path) else {
+        return false;
+    };
+    let deleted = if is_folder {
+        fs::remove_dir_all(path)
+    } else {
+        fs::remove_file(path)
+    };
     match &deleted {
-        Ok(()) => info!("deleted {}, left by a run that did not end well", path.display()),
-        Err(error) => warn!("{} was left by a run that did not end well: {error}", path.display()),
+        Ok(()) => info!(
+            "deleted {}, left by a run that did not end well",
+            path.display()
+        ),
+        Err(error) => warn!(
+            "{} was left by a run that did not end well: {error}",
+            path.display()
+        ),
     }
     deleted.is_ok()
 }

@@ -24,7 +24,11 @@ fn ready_at(listings: &[(u64, &[Seen])]) -> Vec<(u64, String)> {
     for &(at, seen) in listings {
         let facts: Vec<_> = seen.iter().copied().map(fact).collect();
         let given = tracker.step(start + Duration::from_secs(at), &facts);
-        ready.extend(given.into_iter().map(|file| (at, file.path.display().to_string())));
+        ready.extend(
+            given
+                .into_iter()
+                .map(|file| (at, file.path.display().to_string())),
+        );
     }
     ready
 }
@@ -38,7 +42,13 @@ const REST: Seen = ("a", 10, 100, 1);
 #[test]
 fn a_file_that_holds_still_is_given_once() {
     assert_eq!(
-        ready_at(&[(0, &[REST]), (1, &[REST]), (2, &[REST]), (3, &[REST]), (9, &[REST])]),
+        ready_at(&[
+            (0, &[REST]),
+            (1, &[REST]),
+            (2, &[REST]),
+            (3, &[REST]),
+            (9, &[REST])
+        ]),
         once(2, "a")
     );
 }
@@ -70,14 +80,29 @@ fn a_writer_that_pauses_starts_the_wait_anew() {
 #[test]
 fn a_file_written_in_place_with_the_same_size_starts_the_wait_anew() {
     let rewritten: Seen = ("a", 10, 101, 1);
-    assert_eq!(ready_at(&[(0, &[REST]), (1, &[rewritten]), (2, &[rewritten]), (3, &[rewritten])]), once(3, "a"));
+    assert_eq!(
+        ready_at(&[
+            (0, &[REST]),
+            (1, &[rewritten]),
+            (2, &[rewritten]),
+            (3, &[rewritten])
+        ]),
+        once(3, "a")
+    );
 }
 
 #[test]
 fn a_truncated_file_is_given_again_when_it_has_content_again() {
     let cut: Seen = ("a", 0, 105, 1);
     let filled: Seen = ("a", 7, 106, 1);
-    let ready = ready_at(&[(0, &[REST]), (2, &[REST]), (5, &[cut]), (9, &[cut]), (10, &[filled]), (12, &[filled])]);
+    let ready = ready_at(&[
+        (0, &[REST]),
+        (2, &[REST]),
+        (5, &[cut]),
+        (9, &[cut]),
+        (10, &[filled]),
+        (12, &[filled]),
+    ]);
     assert_eq!(ready, [(2, "a".to_owned()), (12, "a".to_owned())]);
 }
 
@@ -91,12 +116,21 @@ fn another_file_renamed_into_the_place_is_a_new_file() {
 #[test]
 fn a_time_of_change_in_the_future_is_as_good_as_any() {
     let future: Seen = ("a", 10, 99_999_999_999, 1);
-    assert_eq!(ready_at(&[(0, &[future]), (2, &[future]), (4, &[future])]), once(2, "a"));
+    assert_eq!(
+        ready_at(&[(0, &[future]), (2, &[future]), (4, &[future])]),
+        once(2, "a")
+    );
 }
 
 #[test]
 fn a_file_that_was_deleted_and_came_back_is_given_again() {
-    let ready = ready_at(&[(0, &[REST]), (2, &[REST]), (3, &[]), (4, &[REST]), (6, &[REST])]);
+    let ready = ready_at(&[
+        (0, &[REST]),
+        (2, &[REST]),
+        (3, &[]),
+        (4, &[REST]),
+        (6, &[REST]),
+    ]);
     assert_eq!(ready, [(2, "a".to_owned()), (6, "a".to_owned())]);
 }
 
@@ -117,10 +151,24 @@ fn a_file_taken_back_must_hold_still_anew() {
     let mut tracker = StabilityTracker::new(Duration::from_secs(2));
     tracker.step(start, &[fact(REST)]);
     assert_eq!(tracker.step(after(2), &[fact(REST)]).len(), 1);
-    tracker.take_back(after(3), Path::new("a"));
+    tracker.take_back(after(3), Path::new("a"), fact(REST).stamp);
     assert_eq!(tracker.unsettled(), 1);
     assert_eq!(tracker.step(after(4), &[fact(REST)]), []);
     assert_eq!(tracker.step(after(5), &[fact(REST)]).len(), 1);
+}
+
+#[test]
+fn a_file_that_has_changed_since_it_was_given_is_not_taken_back() {
+    let start = Instant::now();
+    let after = |seconds| start + Duration::from_secs(seconds);
+    let mut tracker = StabilityTracker::new(Duration::from_secs(2));
+    tracker.step(start, &[fact(REST)]);
+    tracker.step(after(2), &[fact(REST)]);
+    let newer = [fact(("a", 11, 101, 1))];
+    tracker.step(after(3), &newer);
+    assert_eq!(tracker.step(after(5), &newer).len(), 1);
+    tracker.take_back(after(6), Path::new("a"), fact(REST).stamp);
+    assert_eq!(tracker.step(after(9), &newer), []);
 }
 
 proptest! {

@@ -1,0 +1,131 @@
+//! The file as it was written: text, lines and tables, and how a table of it is read.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use seamline_ecs::settings::{self, Profile, SettingsError, SettingsTable, StepSettings};
+use toml::{Table, Value};
+
+use super::ConfigError;
+use super::frame::{DaemonTable, DoneTable, OutputTable, QuarantineTable, StateTable, WatchTable};
+
+/// The tables of the frame besides `[[watch]]`.
+pub(super) const FRAME: [fn() -> SettingsTable; 5] = [
+    SettingsTable::of::<OutputTable>,
+    SettingsTable::of::<StateTable>,
+    SettingsTable::of::<QuarantineTable>,
+    SettingsTable::of::<DoneTable>,
+    SettingsTable::of::<DaemonTable>,
+];
+
+/// A configuration file that is TOML and holds no unknown table; its parts are checked by who needs them.
+#[derive(Clone, Debug)]
+pub struct ConfigFile {
+    path: PathBuf,
+    text: String,
+    tables: Table,
+}
+
+impl ConfigFile {
+    /// Reads a file. `pipeline_tables` are the tables that may stand beside the frame.
+    ///
+    /// # Errors
+    ///
+    /// A file that cannot be read, text that is not TOML, a top-level name that nobody knows.
+    pub fn read(path: &Path, pipeline_tables: &[SettingsTable]) -> Result<Self, ConfigError> {
+        let text = fs::read_to_string(path).map_err(|e| ConfigError::unreadable(path, &e))?;
+        let tables: Table = text
+            .parse()
+            .map_err(|e| ConfigError::syntax(path, &text, &e))?;
+        let file = Self {
+            path: path.to_owned(),
+            text,
+            tables,
+        };
+
+        let frame: Vec<_> = FRAME.iter().map(|frame| frame().name).collect();
+        let known = || {
+            let pipeline = pipeline_tables.iter().map(|table| table.name);
+            [WatchTable::TABLE]
+                .into_iter()
+                .chain(frame.iter().copied())
+                .chain(pipeline)
+        };
+        for (name, value) in &file.tables {
+            if known().all(|known| known != name) {
+                let what = if matches!(value, Value::Table(_) | Value::Array(_)) {
+                    "table"
+                } else {
+                    "key"
+                };
+                return Err(file.locate(SettingsError::unknown(name, what, name, known())));
+            }
+        }
+        Ok(file)
+    }
+
+    /// The tables that belong to the pipeline, untouched.
+    pub fn pipeline_settings(&self) -> Table {
+        let of_frame = |name: &str| {
+            name == WatchTable::TABLE || FRAME.iter().any(|frame| frame().name == name)
+        };
+        let pipeline = self.tables.iter().filter(|(name, _)| !of_frame(name));
+        pipeline
+            .map(|(name, value)| (name.clone(), value.clone()))
+            .collect()
+    }
+
+    pub(super) fn path(&self) -> &Path {
+        &self.path
+    }
+
+    pub(super) fn tables(&self) -> &Table {
+        &self.tables
+    }
+
+    /// Gives an error of the pipeline's settings its file and line.
+    pub fn locate(&self, error: SettingsError) -> ConfigError {
+        ConfigError::at(&self.path, &self.text, error)
+    }
+
+    /// The table of `S`, defaults filled in. `at` is where it stands: `output`, `watch.0`.
+    pub(super) fn table<S: StepSettings>(
+        &self,
+        given: Option<&Value>,
+        at: &str,
+    ) -> Result<S, ConfigError> {
+        read_table(given).map_err(|mut error: SettingsError| {
+            error.key = error.key.replacen(S::TABLE, at, 1);
+            self.locate(error)
+        })
+    }
+}
+
+fn read_table<S: StepSettings>(given: Option<&Value>) -> Result<S, SettingsError> {
+    let known = [SettingsTable::of::<S>()];
+    let resolve = |given: Option<&Value>| {
+        let given = given.map(|table| (S::TABLE.to_owned(), table.clone()));
+        settings::resolve(&known, Profile::Cad, &given.into_iter().collect())
+    };
+    let in_force = resolve(given).map_err(|mut error| {
+        // A value of the right kind that is none of the words allowed is reported for the table as a
+        // whole; the key to blame is the one that is refused on its own.
+        if error.key == S::TABLE {
+            let alone = |(key, value): (&String, &Value)| {
+                let alone = Table::from_iter([(key.clone(), value.clone())]);
+                let refused = resolve(Some(&Value::Table(alone))).is_err_and(|e| e.key == S::TABLE);
+                refused.then(|| format!("{}.{key}", S::TABLE))
+            };
+            let culprit = given
+                .and_then(Value::as_table)
+                .and_then(|table| table.iter().find_map(alone));
+            error.hint = match culprit {
+                Some(_) => "see `seamline config schema`".to_owned(),
+                None => error.hint,
+            };
+            error.key = culprit.unwrap_or(error.key);
+        }
+        error
+    })?;
+    settings::read(&in_force)
+}

@@ -1,0 +1,90 @@
+//! A pipeline that cuts nothing: it obeys, so that the daemon around it can be tested.
+
+use std::sync::Arc;
+use std::time::Duration;
+
+use bevy_ecs::prelude::*;
+use seamline_ecs::results::{Boundary, PatchReport, PatchSummary, VertexQuantities};
+use seamline_ecs::{
+    BuiltinSteps, InputMesh, Pipeline, Registry, Segmentation, Stage, StepError, fallible,
+};
+use seamline_mesh::{Mesh, Topology, examine};
+
+/// A mesh of this many faces is refused by a step.
+pub const REFUSED: usize = 3;
+/// A mesh of this many faces makes a step panic.
+pub const PANICS: usize = 4;
+/// A mesh of this many faces takes its time.
+pub const SLOW: usize = 5;
+
+/// The pipeline: one patch for every mesh, but for those of the sizes above.
+pub fn pipeline() -> Arc<Pipeline> {
+    let steps = BuiltinSteps {
+        tables: Vec::new(),
+        install: |_| {
+            Ok(Arc::new(|_: &mut World, schedule: &mut Schedule| {
+                schedule.add_systems(fallible(obey).in_set(Stage::Grow));
+                schedule.add_systems(one_patch.in_set(Stage::Export));
+            }))
+        },
+    };
+    let pipeline = Pipeline::assemble(&steps, &Registry::default(), &toml::Table::new());
+    Arc::new(pipeline.unwrap())
+}
+
+fn obey(mesh: Res<InputMesh>) -> Result<(), StepError> {
+    match mesh.0.polygons.face_count() {
+        REFUSED => {
+            return Err(StepError::new(
+                "three faces are refused",
+                "take another number of faces",
+            ));
+        }
+        PANICS => panic!("four faces\nare too many"),
+        SLOW => std::thread::sleep(Duration::from_millis(400)),
+        _ => {}
+    }
+    Ok(())
+}
+
+fn one_patch(mesh: Res<InputMesh>, mut commands: Commands) {
+    commands.insert_resource(in_one_patch(&mesh.0));
+}
+
+/// A whole mesh as one patch.
+pub fn in_one_patch(mesh: &Mesh) -> Segmentation {
+    let [faces, vertices] = [mesh.polygons.face_count(), mesh.positions().len()];
+    let summary = PatchSummary {
+        faces: faces as u32,
+        ..PatchSummary::default()
+    };
+    Segmentation {
+        face_patches: vec![0; faces],
+        patches: vec![PatchReport {
+            id: 0,
+            summary,
+            neighbours: Vec::new(),
+        }],
+        boundaries: vec![Boundary {
+            patches: [0, 1],
+            length: 1.0,
+            sharp_share: 0.5,
+            polylines: vec![vec![0, 1]],
+        }],
+        vertices: VertexQuantities {
+            k_min: vec![0.0; vertices],
+            k_max: vec![0.0; vertices],
+            d_min: vec![[0.0; 3]; vertices],
+            d_max: vec![[0.0; 3]; vertices],
+        },
+        findings: examine(mesh, &Topology::build(vertices, mesh.triangles.clone())),
+        stages: Vec::new(),
+    }
+}
+
+/// An OBJ file of this many triangles in a row.
+pub fn strip(faces: usize) -> String {
+    let vertices = (0..faces + 2).map(|v| format!("v {} {} 0\n", v / 2, v % 2));
+    let triangles = (1..=faces).map(|f| format!("f {f} {} {}\n", f + 1, f + 2));
+    vertices.chain(triangles).collect()
+}

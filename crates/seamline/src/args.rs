@@ -1,0 +1,131 @@
+//! What can be typed.
+
+use std::path::PathBuf;
+
+use clap::{Parser, Subcommand};
+
+/// Cuts triangle meshes exported from CAD into the patches an engineer would draw.
+///
+/// Exit status: 0 all done; 1 some input failed, the others done; 2 wrong use or wrong configuration,
+/// nothing done.
+#[derive(Parser, Debug)]
+#[command(version, max_term_width = 100)]
+pub struct Args {
+    #[command(subcommand)]
+    pub command: Command,
+}
+
+#[derive(Subcommand, Debug)]
+pub enum Command {
+    /// Cut meshes into patches
+    Segment(SegmentArgs),
+    /// Watch folders and cut every mesh that is dropped there
+    Watch(WatchArgs),
+    /// Say what a mesh is, and what is wrong with it
+    Inspect(InspectArgs),
+    /// List each swappable stage, what can fill it, and its settings
+    Plugins(PluginsArgs),
+    /// Check a configuration, or print the schema of all configurations
+    Config {
+        #[command(subcommand)]
+        command: ConfigCommand,
+    },
+}
+
+#[derive(clap::Args, Debug)]
+pub struct SegmentArgs {
+    /// STL, OBJ or PLY files
+    #[arg(required = true, value_name = "MESH")]
+    pub meshes: Vec<PathBuf>,
+    /// Folder the results go to: part.stl gives DIR/part.stl.seamline/
+    #[arg(short, long, value_name = "DIR", default_value = ".")]
+    pub output: PathBuf,
+    /// Files to write, with commas: labels, patches, boundaries, report [default: all]
+    #[arg(long, value_name = "LIST")]
+    pub write: Option<String>,
+    /// Print one report a line on standard output
+    #[arg(long)]
+    pub json: bool,
+    #[command(flatten)]
+    pub pipeline: PipelineArgs,
+    #[command(flatten)]
+    pub said: SaidArgs,
+}
+
+/// Settings of the pipeline. Each beats the environment (SEAMLINE_PROFILE, SEAMLINE_MERGE__THRESHOLD, ...),
+/// which beats the file.
+#[derive(clap::Args, Debug, Default)]
+pub struct PipelineArgs {
+    /// Set of defaults: cad or lavoue2005 [default: cad]
+    #[arg(long, value_name = "NAME")]
+    pub profile: Option<String>,
+    /// Plugin that gives each curvature sample a cluster; see `seamline plugins`
+    #[arg(long, value_name = "NAME")]
+    pub classifier: Option<String>,
+    /// Plugin that cleans the boundaries, or none
+    #[arg(long, value_name = "NAME")]
+    pub rectifier: Option<String>,
+    /// Configuration whose pipeline part is used
+    #[arg(long, value_name = "F.toml")]
+    pub config: Option<PathBuf>,
+    /// One setting by its dotted key, as merge.threshold=50; repeatable
+    #[arg(long = "set", value_name = "KEY=VALUE")]
+    pub set: Vec<String>,
+    /// Threads used on one mesh; 0: all there are. Results do not depend on it
+    #[arg(long, value_name = "N")]
+    pub threads: Option<usize>,
+}
+
+#[derive(clap::Args, Debug, Clone, Copy)]
+pub struct SaidArgs {
+    /// Say only what went wrong
+    #[arg(short, long, conflicts_with = "verbose")]
+    pub quiet: bool,
+    /// Say more
+    #[arg(short, long)]
+    pub verbose: bool,
+}
+
+#[derive(clap::Args, Debug)]
+pub struct WatchArgs {
+    /// The configuration; see watch-config/ for examples
+    #[arg(value_name = "CONFIG.toml")]
+    pub config: PathBuf,
+    /// Cut what lies in the folders now, and end
+    #[arg(long)]
+    pub once: bool,
+    /// Say what would be taken, and do none of it
+    #[arg(long)]
+    pub dry_run: bool,
+    #[command(flatten)]
+    pub said: SaidArgs,
+}
+
+#[derive(clap::Args, Debug)]
+pub struct InspectArgs {
+    /// STL, OBJ or PLY files
+    #[arg(required = true, value_name = "MESH")]
+    pub meshes: Vec<PathBuf>,
+    /// One line of JSON a mesh
+    #[arg(long)]
+    pub json: bool,
+}
+
+#[derive(clap::Args, Debug)]
+pub struct PluginsArgs {
+    /// As JSON
+    #[arg(long)]
+    pub json: bool,
+}
+
+#[derive(Subcommand, Debug)]
+pub enum ConfigCommand {
+    /// Check a configuration without starting anything
+    Check {
+        /// The configuration
+        #[arg(value_name = "CONFIG.toml")]
+        config: PathBuf,
+    },
+    /// Print the JSON schema of configurations
+    Schema,
+}

@@ -1,0 +1,131 @@
+//! `seamline segment`: cut meshes into patches.
+
+use std::collections::BTreeMap;
+use std::ffi::OsStr;
+use std::fs;
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use anyhow::{Context, Result};
+use indicatif::{ProgressBar, ProgressStyle};
+use seamline_ecs::{Segmentation, Worker};
+use seamline_watch::{JobFacts, LoadedMesh, VERSION, WriteSet, load, report, write_results};
+
+use crate::args::SegmentArgs;
+use crate::outcome::{Outcome, WrongUse, say_failure};
+use crate::settings::pipeline_of_args;
+
+/// Cuts every mesh named; one that fails is told and the others go on.
+pub fn run(args: &SegmentArgs) -> Result<Outcome> {
+    let pipeline = Arc::new(pipeline_of_args(&args.pipeline)?);
+    let write = args.write.as_deref().map_or(Ok(WriteSet::ALL), str::parse)?;
+    refuse_same_names(&args.meshes)?;
+    fs::create_dir_all(&args.output)
+        .with_context(|| format!("{} cannot be created", args.output.display()))?;
+    if pipeline.threads() > 0 {
+        rayon::ThreadPoolBuilder::new().num_threads(pipeline.threads()).build_global()?;
+    }
+    let weld_share = pipeline.settings_in_force()["mesh"]["weld_share"].as_float().unwrap_or(0.0);
+
+    let bar = progress(args.meshes.len(), args.said.quiet);
+    let mut worker = Worker::new(Arc::clone(&pipeline));
+    let mut failures = 0;
+    for path in &args.meshes {
+        bar.set_message(path.display().to_string());
+        let done = cut(path, weld_share, &mut worker).and_then(|(loaded, segmentation)| {
+            let about = JobFacts {
+                path,
+                hash: &loaded.hash,
+                format: loaded.format,
+                bytes_len: loaded.bytes_len,
+                settings: pipeline.settings_in_force(),
+                program_version: VERSION,
+                read_seconds: loaded.took.as_secs_f64(),
+            };
+            let name = path.file_name().unwrap_or(OsStr::new("mesh"));
+            let place = write_results(&args.output, name, &loaded.mesh, &segmentation, &about, write)
+                .map_err(|e| Failure { reason: e.to_string(), hint: e.hint().to_owned() })?;
+            bar.suspend(|| tell(args, path, &place, &loaded, &segmentation, &about));
+            Ok(())
+        });
+        if let Err(Failure { reason, hint }) = done {
+            failures += 1;
+            bar.suspend(|| say_failure(path, &reason, &hint));
+        }
+        bar.inc(1);
+    }
+    bar.finish_and_clear();
+    Ok(Outcome::of_failures(failures))
+}
+
+struct Failure {
+    reason: String,
+    hint: String,
+}
+
+fn cut(path: &Path, weld_share: f64, worker: &mut Worker) -> Result<(LoadedMesh, Segmentation), Failure> {
+    let loaded = load(path, weld_share)
+        .map_err(|e| Failure { reason: e.to_string(), hint: e.hint().to_owned() })?;
+    let segmentation = worker
+        .segment(Arc::clone(&loaded.mesh))
+        .map_err(|e| Failure { reason: e.to_string(), hint: e.hint })?;
+    Ok((loaded, segmentation))
+}
+
+fn tell(
+    args: &SegmentArgs,
+    path: &Path,
+    place: &Path,
+    loaded: &LoadedMesh,
+    segmentation: &Segmentation,
+    about: &JobFacts,
+) {
+    if args.json {
+        // A reader that has gone away has seen enough.
+        let _ = writeln!(io::stdout(), "{}", report(&loaded.mesh, segmentation, about));
+    }
+    if args.said.quiet {
+        return;
+    }
+    eprintln!(
+        "{}: {} patches of {} faces -> {}",
+        path.display(),
+        segmentation.patches.len(),
+        segmentation.face_patches.len(),
+        place.display()
+    );
+    if args.said.verbose {
+        eprintln!("  {:<10} {:>9.3} s", "read", about.read_seconds);
+        for stage in &segmentation.stages {
+            let counts: Vec<_> = stage.counts.iter().map(|(name, n)| format!("{name} {n}")).collect();
+            eprintln!("  {:<10} {:>9.3} s  {}", stage.stage.name(), stage.seconds, counts.join(", "));
+        }
+    }
+}
+
+/// Results are named by their input's file name, so that two inputs of one name would end in one folder.
+fn refuse_same_names(meshes: &[PathBuf]) -> Result<(), WrongUse> {
+    let mut first: BTreeMap<&OsStr, &Path> = BTreeMap::new();
+    for path in meshes {
+        let Some(name) = path.file_name() else { continue };
+        if let Some(before) = first.insert(name, path) {
+            return Err(WrongUse(format!(
+                "{} and {} would both write {}.seamline; cut them into different folders with -o",
+                before.display(),
+                path.display(),
+                name.display()
+            )));
+        }
+    }
+    Ok(())
+}
+
+/// A bar on a terminal, nothing elsewhere.
+fn progress(meshes: usize, quiet: bool) -> ProgressBar {
+    if quiet || meshes < 2 {
+        return ProgressBar::hidden();
+    }
+    let style = ProgressStyle::with_template("{bar:30} {pos}/{len} {wide_msg}");
+    ProgressBar::new(meshes as u64).with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()))
+}

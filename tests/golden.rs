@@ -7,7 +7,12 @@ use seamline_tests::segment;
 /// Do two labellings cut the faces alike, whatever the names?
 fn same_partition(a: &[u32], b: &[u32]) -> bool {
     let pairs: std::collections::BTreeSet<_> = a.iter().zip(b).collect();
-    let distinct = |labels: &[u32]| labels.iter().collect::<std::collections::BTreeSet<_>>().len();
+    let distinct = |labels: &[u32]| {
+        labels
+            .iter()
+            .collect::<std::collections::BTreeSet<_>>()
+            .len()
+    };
     a.len() == b.len() && pairs.len() == distinct(a) && pairs.len() == distinct(b)
 }
 
@@ -41,8 +46,14 @@ fn cad_cuts_every_basic_shape_into_its_surfaces() {
         ("shaft", shapes::shaft(24, 4)),
         ("bracket", shapes::bracket(6)),
         ("stadium", shapes::stadium(2.0, 0.5, 0.5, 8)),
-        ("two radii", shapes::rounded_box(glam::dvec3(2.0, 2.0, 1.0), [0.2, 0.0, 0.6, 0.0], 6)),
-        ("filleted box", shapes::rounded_box(glam::dvec3(2.0, 1.0, 1.0), [0.2, 0.0, 0.0, 0.0], 4)),
+        (
+            "two radii",
+            shapes::rounded_box(glam::dvec3(2.0, 2.0, 1.0), [0.2, 0.0, 0.6, 0.0], 6),
+        ),
+        (
+            "filleted box",
+            shapes::rounded_box(glam::dvec3(2.0, 1.0, 1.0), [0.2, 0.0, 0.0, 0.0], 4),
+        ),
     ] {
         assert_exact(name, &shape, &["pipeline.profile=cad"]);
     }
@@ -53,11 +64,19 @@ fn lavoue2005_cuts_the_papers_basic_elements_as_its_figure_11_does() {
     let profile = "pipeline.profile=lavoue2005";
     for (name, shape, right) in [
         ("coarse cylinder", cylinder(24), 3),
-        ("fine cylinder", shapes::cylinder(1.0, 2.0, 64, 16, Diagonals::Uniform), 3),
+        (
+            "fine cylinder",
+            shapes::cylinder(1.0, 2.0, 64, 16, Diagonals::Uniform),
+            3,
+        ),
         ("cone", shapes::cone(1.0, 2.0, 24), 2),
         ("cube", shapes::cuboid(glam::DVec3::ONE), 6),
     ] {
-        assert_eq!(patches(&shape, &[profile, "pipeline.rectifier=none"]), right, "{name}");
+        assert_eq!(
+            patches(&shape, &[profile, "pipeline.rectifier=none"]),
+            right,
+            "{name}"
+        );
         assert_eq!(patches(&shape, &[profile]), right, "{name}, rectified");
     }
 }
@@ -66,7 +85,10 @@ fn lavoue2005_cuts_the_papers_basic_elements_as_its_figure_11_does() {
 fn a_smooth_cube_has_26_natural_parts_and_the_papers_seven_by_its_rectifier_or_by_two_clusters() {
     let cube = shapes::smooth_cube(0.2, 12, 8);
     let with = |more: &[&str]| {
-        patches(&cube, &[&["pipeline.profile=lavoue2005", "merge.threshold=1"], more].concat())
+        patches(
+            &cube,
+            &[&["pipeline.profile=lavoue2005", "merge.threshold=1"], more].concat(),
+        )
     };
     assert_eq!(with(&["pipeline.rectifier=none"]), 26);
     assert_eq!(with(&["contour-tracking.correct_below_deg=5"]), 7);

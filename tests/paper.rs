@@ -5,7 +5,10 @@ use seamline_mesh::{Mesh, read, weld};
 use seamline_tests::{bench, count, segment_mesh};
 
 fn fandisk() -> Option<Mesh> {
-    Some(weld(read(&bench("paper/fandisk.obj")?).expect("fandisk reads"), 0.0))
+    Some(weld(
+        read(&bench("paper/fandisk.obj")?).expect("fandisk reads"),
+        0.0,
+    ))
 }
 
 fn cut(mesh: &Mesh, clusters: u32, threshold: f64, more: &[&str]) -> Segmentation {

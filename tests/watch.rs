@@ -1,7 +1,5 @@
 //! The watch folder from outside: the real program on real folders.
 
-mod common;
-
 use std::fs::{self, File};
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -9,7 +7,7 @@ use std::process::{Child, Command, Output, Stdio};
 use std::thread::sleep;
 use std::time::{Duration, Instant};
 
-use common::seamline;
+use seamline_tests::seamline;
 
 /// A folder with `inbox` in it and a configuration beside that.
 struct Home(tempfile::TempDir);
@@ -23,7 +21,11 @@ impl Home {
     fn with(more: &str) -> Self {
         let home = Self(tempfile::tempdir().unwrap());
         fs::create_dir(home.at("inbox")).unwrap();
-        fs::write(home.config(), format!("[[watch]]\nroot = \"inbox\"\n{more}")).unwrap();
+        fs::write(
+            home.config(),
+            format!("[[watch]]\nroot = \"inbox\"\n{more}"),
+        )
+        .unwrap();
         home
     }
 
@@ -43,7 +45,12 @@ impl Home {
     }
 
     fn once(&self) -> Output {
-        seamline().arg("watch").arg(self.config()).arg("--once").output().unwrap()
+        seamline()
+            .arg("watch")
+            .arg(self.config())
+            .arg("--once")
+            .output()
+            .unwrap()
     }
 
     fn start(&self) -> Daemon {
@@ -74,7 +81,10 @@ struct Daemon(Child);
 impl Daemon {
     /// Sends SIGTERM and gives the exit code.
     fn terminate(mut self) -> Option<i32> {
-        let killed = Command::new("kill").args(["-TERM", &self.0.id().to_string()]).status().unwrap();
+        let killed = Command::new("kill")
+            .args(["-TERM", &self.0.id().to_string()])
+            .status()
+            .unwrap();
         assert!(killed.success());
         self.0.wait().unwrap().code()
     }
@@ -94,7 +104,10 @@ impl Drop for Daemon {
 fn wait_for(what: &str, holds: impl Fn() -> bool) {
     let started = Instant::now();
     while !holds() {
-        assert!(started.elapsed() < Duration::from_secs(30), "waited for {what}");
+        assert!(
+            started.elapsed() < Duration::from_secs(30),
+            "waited for {what}"
+        );
         sleep(Duration::from_millis(20));
     }
 }
@@ -105,9 +118,20 @@ fn said(output: &Output) -> String {
 
 /// A box of six squares, as OBJ.
 fn cuboid(height: f64) -> String {
-    let corners = (0..8).map(|i| format!("v {} {} {}\n", i & 1, i >> 1 & 1, f64::from(i >> 2) * height));
-    let faces = ["1 3 4 2", "5 6 8 7", "1 2 6 5", "3 7 8 4", "1 5 7 3", "2 4 8 6"];
-    corners.chain(faces.iter().map(|face| format!("f {face}\n"))).collect()
+    let corners = (0..8).map(|i| {
+        format!(
+            "v {} {} {}\n",
+            i & 1,
+            i >> 1 & 1,
+            f64::from(i >> 2) * height
+        )
+    });
+    let faces = [
+        "1 3 4 2", "5 6 8 7", "1 2 6 5", "3 7 8 4", "1 5 7 3", "2 4 8 6",
+    ];
+    corners
+        .chain(faces.iter().map(|face| format!("f {face}\n")))
+        .collect()
 }
 
 #[test]
@@ -128,7 +152,10 @@ fn results_are_whole_and_nothing_lies_beside_them() {
     home.drop("box.obj", &cuboid(1.0));
     home.once();
     for name in ["labels.seg", "patches.ply", "boundaries.obj", "report.json"] {
-        assert!(home.result("box.obj").join(name).metadata().unwrap().len() > 0, "{name}");
+        assert!(
+            home.result("box.obj").join(name).metadata().unwrap().len() > 0,
+            "{name}"
+        );
     }
     let report = fs::read(home.result("box.obj").join("report.json")).unwrap();
     let report: serde_json::Value = serde_json::from_slice(&report).unwrap();
@@ -147,7 +174,10 @@ fn two_runs_give_the_same_bytes() {
         let file = |name: &str| fs::read(home.result("box.obj").join(name)).unwrap();
         let mut report: serde_json::Value = serde_json::from_slice(&file("report.json")).unwrap();
         report.as_object_mut().unwrap().remove("seconds").unwrap();
-        (["labels.seg", "patches.ply", "boundaries.obj"].map(file), report.to_string())
+        (
+            ["labels.seg", "patches.ply", "boundaries.obj"].map(file),
+            report.to_string(),
+        )
     };
     assert!(bytes() == bytes());
 }
@@ -157,11 +187,21 @@ fn files_dropped_while_it_runs_are_taken_once() {
     let home = Home::new();
     let daemon = home.start();
     for number in 0..10 {
-        home.drop(&format!("new/box{number}.obj"), &cuboid(f64::from(number + 1)));
+        home.drop(
+            &format!("new/box{number}.obj"),
+            &cuboid(f64::from(number + 1)),
+        );
     }
     let done = |number| home.labels(&format!("new/box{number}.obj")) == 6;
     wait_for("ten results", || (0..10).all(done));
-    let written = || home.result("new/box3.obj").join("report.json").metadata().unwrap().modified().unwrap();
+    let written = || {
+        home.result("new/box3.obj")
+            .join("report.json")
+            .metadata()
+            .unwrap()
+            .modified()
+            .unwrap()
+    };
     let first = written();
     sleep(Duration::from_millis(1000));
     assert_eq!(written(), first);
@@ -175,7 +215,12 @@ fn half_written_file_waits() {
     let text = cuboid(1.0);
     let path = home.drop("box.obj", "");
     for piece in text.as_bytes().chunks(text.len() / 8) {
-        File::options().append(true).open(&path).unwrap().write_all(piece).unwrap();
+        File::options()
+            .append(true)
+            .open(&path)
+            .unwrap()
+            .write_all(piece)
+            .unwrap();
         sleep(Duration::from_millis(300));
         assert!(!home.result("box.obj").exists());
     }
@@ -197,7 +242,15 @@ fn rename_into_folder_is_picked_up() {
 #[test]
 fn temp_suffix_ignored() {
     let home = Home::with("stable_for_ms = 100\ninclude = [\"*\"]\n");
-    for name in ["a.obj.part", "b.obj.tmp", "c.filepart", "d.crdownload", "e.obj~", "._f.obj", ".g.obj"] {
+    for name in [
+        "a.obj.part",
+        "b.obj.tmp",
+        "c.filepart",
+        "d.crdownload",
+        "e.obj~",
+        "._f.obj",
+        ".g.obj",
+    ] {
         home.drop(name, "half a mesh");
     }
     home.drop("box.obj", &cuboid(1.0));
@@ -219,8 +272,18 @@ fn poison_file_quarantined() {
         let reason = home.at(&format!("quarantine/{name}.error.json"));
         wait_for(name, || reason.exists());
         let reason: serde_json::Value = serde_json::from_slice(&fs::read(reason).unwrap()).unwrap();
-        for key in ["stage", "message", "hint", "path", "blake3", "program_version"] {
-            assert!(reason[key].as_str().is_some_and(|text| !text.is_empty()), "{name}: {key}");
+        for key in [
+            "stage",
+            "message",
+            "hint",
+            "path",
+            "blake3",
+            "program_version",
+        ] {
+            assert!(
+                reason[key].as_str().is_some_and(|text| !text.is_empty()),
+                "{name}: {key}"
+            );
         }
         assert_eq!(reason["attempts"], 1);
         assert!(reason["settings"].is_object());
@@ -254,10 +317,17 @@ fn once_on_an_empty_folder_is_all_done() {
 fn dry_run_says_what_would_be_done_and_does_none_of_it() {
     let home = Home::new();
     home.drop("a/box.obj", &cuboid(1.0));
-    let output = seamline().arg("watch").arg(home.config()).arg("--dry-run").output().unwrap();
+    let output = seamline()
+        .arg("watch")
+        .arg(home.config())
+        .arg("--dry-run")
+        .output()
+        .unwrap();
     assert_eq!(output.status.code(), Some(0), "{}", said(&output));
     assert!(String::from_utf8_lossy(&output.stdout).contains("a/box.obj"));
-    assert!(!home.at("out").exists() && !home.at("quarantine").exists() && !home.at("state").exists());
+    assert!(
+        !home.at("out").exists() && !home.at("quarantine").exists() && !home.at("state").exists()
+    );
 }
 
 #[test]
@@ -267,7 +337,9 @@ fn sigterm_drains() {
         home.drop(&format!("box{number}.obj"), &cuboid(f64::from(number + 1)));
     }
     let daemon = home.start();
-    wait_for("the first results", || fs::read_dir(home.at("out")).is_ok_and(|entries| entries.count() > 1));
+    wait_for("the first results", || {
+        fs::read_dir(home.at("out")).is_ok_and(|entries| entries.count() > 1)
+    });
     assert_eq!(daemon.terminate(), Some(0));
     for entry in fs::read_dir(home.at("out")).unwrap() {
         let folder = entry.unwrap().path();
@@ -283,7 +355,14 @@ fn mtime_kept_on_move() {
     let modified = path.metadata().unwrap().modified().unwrap();
     assert_eq!(home.once().status.code(), Some(0));
     assert!(!path.exists());
-    assert_eq!(home.at("done/a/box.obj").metadata().unwrap().modified().unwrap(), modified);
+    assert_eq!(
+        home.at("done/a/box.obj")
+            .metadata()
+            .unwrap()
+            .modified()
+            .unwrap(),
+        modified
+    );
 
     home.drop("a/box.obj", &cuboid(2.0));
     assert_eq!(home.once().status.code(), Some(0));
@@ -300,39 +379,73 @@ fn refused(home: &Home) -> String {
 #[test]
 fn bad_config_exits_before_watching() {
     let frame = refused(&Home::with("stable_for_sm = 2\n"));
-    assert!(frame.contains("watch.toml:3: watch.stable_for_sm"), "{frame}");
+    assert!(
+        frame.contains("watch.toml:3: watch.stable_for_sm"),
+        "{frame}"
+    );
     assert!(frame.contains("did you mean `stable_for_ms`?"), "{frame}");
 
     let pipeline = refused(&Home::with("\n[pipeline]\nclassifer = \"kmeans\"\n"));
-    assert!(pipeline.contains("watch.toml:5: pipeline.classifer"), "{pipeline}");
-    assert!(pipeline.contains("did you mean `classifier`?"), "{pipeline}");
+    assert!(
+        pipeline.contains("watch.toml:5: pipeline.classifer"),
+        "{pipeline}"
+    );
+    assert!(
+        pipeline.contains("did you mean `classifier`?"),
+        "{pipeline}"
+    );
 
     let table = refused(&Home::with("\n[outptu]\ndir = \"out\"\n"));
-    assert!(table.contains("watch.toml:4: outptu") && table.contains("`output`"), "{table}");
+    assert!(
+        table.contains("watch.toml:4: outptu") && table.contains("`output`"),
+        "{table}"
+    );
 }
 
 #[test]
 fn output_inside_watch_is_refused() {
     let text = refused(&Home::with("\n[output]\ndir = \"inbox/out\"\n"));
-    assert!(text.contains("watch.toml:5: output.dir") && text.contains("inside the watched folder"), "{text}");
+    assert!(
+        text.contains("watch.toml:5: output.dir") && text.contains("inside the watched folder"),
+        "{text}"
+    );
 }
 
 #[test]
 fn every_configuration_that_comes_with_the_program_is_right() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../watch-config");
-    let entries = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
-    let configs: Vec<_> = entries.filter(|path| path.extension().is_some_and(|e| e == "toml")).collect();
+    let entries = fs::read_dir(folder)
+        .unwrap()
+        .map(|entry| entry.unwrap().path());
+    let configs: Vec<_> = entries
+        .filter(|path| path.extension().is_some_and(|e| e == "toml"))
+        .collect();
     assert!(configs.iter().any(|path| path.ends_with("demo.toml")));
     for config in configs {
-        let output = seamline().args(["config", "check"]).arg(&config).output().unwrap();
-        assert_eq!(output.status.code(), Some(0), "{}: {}", config.display(), said(&output));
+        let output = seamline()
+            .args(["config", "check"])
+            .arg(&config)
+            .output()
+            .unwrap();
+        assert_eq!(
+            output.status.code(),
+            Some(0),
+            "{}: {}",
+            config.display(),
+            said(&output)
+        );
     }
 }
 
 #[test]
 fn the_demo_finds_sample_parts_to_cut() {
     let config = Path::new(env!("CARGO_MANIFEST_DIR")).join("../watch-config/demo.toml");
-    let output = seamline().arg("watch").arg(config).arg("--dry-run").output().unwrap();
+    let output = seamline()
+        .arg("watch")
+        .arg(config)
+        .arg("--dry-run")
+        .output()
+        .unwrap();
     assert_eq!(output.status.code(), Some(0), "{}", said(&output));
     assert!(String::from_utf8_lossy(&output.stdout).lines().count() > 0);
 }

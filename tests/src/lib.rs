@@ -5,26 +5,36 @@ use std::path::PathBuf;
 use std::process::Command;
 use std::sync::{Arc, OnceLock};
 
-use escargot::CargoBuild;
+use escargot::{CargoBuild, CargoRun};
 use seamline_ecs::settings::set_dotted;
 use seamline_ecs::{Pipeline, Segmentation, Worker};
 use seamline_mesh::{Mesh, PolygonMesh, weld};
 use seamline_segment::builtin_steps;
 
-/// The built binary, ready for arguments.
+/// The program, ready to be given arguments. Built once a test binary, in the profile of the tests.
+///
+/// # Panics
+///
+/// If it does not build.
 pub fn seamline() -> Command {
-    static BINARY: OnceLock<PathBuf> = OnceLock::new();
-    let path = BINARY.get_or_init(|| {
-        let build = CargoBuild::new().package("seamline").bin("seamline").current_target().release();
-        build.run().expect("the binary builds").path().to_owned()
+    static PROGRAM: OnceLock<CargoRun> = OnceLock::new();
+    let program = PROGRAM.get_or_init(|| {
+        let build = CargoBuild::new()
+            .manifest_path(concat!(env!("CARGO_MANIFEST_DIR"), "/../Cargo.toml"))
+            .package("seamline")
+            .bin("seamline")
+            .current_release();
+        build.run().expect("the program builds")
     });
-    Command::new(path)
+    program.command()
 }
 
 /// A file or folder of the bench, which lies beside the project's folder. `None`, and a word on standard
 /// error, where it is absent.
 pub fn bench(path: &str) -> Option<PathBuf> {
-    let found = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../shared/bench").join(path);
+    let found = PathBuf::from(env!("CARGO_MANIFEST_DIR"))
+        .join("../../shared/bench")
+        .join(path);
     if found.exists() {
         return Some(found);
     }
@@ -62,7 +72,9 @@ pub fn segment(polygons: PolygonMesh, settings: &[&str]) -> Segmentation {
 ///
 /// As [`segment`].
 pub fn segment_mesh(mesh: Mesh, settings: &[&str]) -> Segmentation {
-    Worker::new(pipeline(settings)).segment(Arc::new(mesh)).expect("every step does its work")
+    Worker::new(pipeline(settings))
+        .segment(Arc::new(mesh))
+        .expect("every step does its work")
 }
 
 /// What a stage counted under a name.
@@ -71,6 +83,11 @@ pub fn segment_mesh(mesh: Mesh, settings: &[&str]) -> Segmentation {
 ///
 /// If it counted no such thing.
 pub fn count(segmentation: &Segmentation, stage: &str, name: &str) -> u64 {
-    let record = segmentation.stages.iter().find(|record| record.stage.name() == stage);
-    *record.and_then(|record| record.counts.get(name)).expect("the stage counted it")
+    let record = segmentation
+        .stages
+        .iter()
+        .find(|record| record.stage.name() == stage);
+    *record
+        .and_then(|record| record.counts.get(name))
+        .expect("the stage counted it")
 }

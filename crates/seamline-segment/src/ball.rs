@@ -13,7 +13,12 @@ pub fn ball_tensor(bending: &Bending, vertex: u32, radius: f64) -> TensorPair {
     let centre = bending.positions[vertex as usize].0;
     let at = |v: u32| bending.positions[v as usize].0;
 
-    let mut faces: BTreeSet<u32> = topology.vertex_faces.row(vertex as usize).iter().copied().collect();
+    let mut faces: BTreeSet<u32> = topology
+        .vertex_faces
+        .row(vertex as usize)
+        .iter()
+        .copied()
+        .collect();
     let mut edges = BTreeSet::new();
     let mut open: Vec<u32> = faces.iter().copied().collect();
     let mut sum = TensorPair::default();
@@ -42,8 +47,11 @@ pub fn ball_tensor(bending: &Bending, vertex: u32, radius: f64) -> TensorPair {
 /// The share of the segment from `a` to `b` that lies in the sphere.
 fn clipped_share(a: DVec3, b: DVec3, centre: DVec3, radius: f64) -> f64 {
     let (from, along) = (a - centre, b - a);
-    let (qa, qb, qc) =
-        (along.length_squared(), from.dot(along), from.length_squared() - radius * radius);
+    let (qa, qb, qc) = (
+        along.length_squared(),
+        from.dot(along),
+        from.length_squared() - radius * radius,
+    );
     let discriminant = qb * qb - qa * qc;
     if discriminant <= 0.0 || qa == 0.0 {
         return 0.0;
@@ -56,7 +64,9 @@ fn clipped_share(a: DVec3, b: DVec3, centre: DVec3, radius: f64) -> f64 {
 
 /// The area of the part of a triangle that lies in the sphere: the triangle's plane cuts a disc out of it.
 fn clipped_area([a, b, c]: [DVec3; 3], centre: DVec3, radius: f64) -> f64 {
-    let Some(normal) = (b - a).cross(c - a).try_normalize() else { return 0.0 };
+    let Some(normal) = (b - a).cross(c - a).try_normalize() else {
+        return 0.0;
+    };
     let height = (a - centre).dot(normal);
     let squared = radius * radius - height * height;
     if squared <= 0.0 {
@@ -72,7 +82,11 @@ fn clipped_area([a, b, c]: [DVec3; 3], centre: DVec3, radius: f64) -> f64 {
 fn disc_sector(p: DVec2, q: DVec2, radius: f64) -> f64 {
     let along = q - p;
     let wedge = |a: DVec2, b: DVec2| radius * radius / 2.0 * a.perp_dot(b).atan2(a.dot(b));
-    let (qa, qb, qc) = (along.length_squared(), p.dot(along), p.length_squared() - radius * radius);
+    let (qa, qb, qc) = (
+        along.length_squared(),
+        p.dot(along),
+        p.length_squared() - radius * radius,
+    );
     let discriminant = qb * qb - qa * qc;
     if discriminant <= 0.0 || qa == 0.0 {
         return wedge(p, q);
@@ -83,8 +97,16 @@ fn disc_sector(p: DVec2, q: DVec2, radius: f64) -> f64 {
         return wedge(p, q);
     }
     let (inside_from, inside_to) = (p + along * enter.max(0.0), p + along * leave.min(1.0));
-    let before = if enter > 0.0 { wedge(p, inside_from) } else { 0.0 };
-    let after = if leave < 1.0 { wedge(inside_to, q) } else { 0.0 };
+    let before = if enter > 0.0 {
+        wedge(p, inside_from)
+    } else {
+        0.0
+    };
+    let after = if leave < 1.0 {
+        wedge(inside_to, q)
+    } else {
+        0.0
+    };
     before + inside_from.perp_dot(inside_to) / 2.0 + after
 }
 
@@ -93,8 +115,11 @@ mod tests {
     use super::*;
     use std::f64::consts::PI;
 
-    const TRIANGLE: [DVec3; 3] =
-        [DVec3::new(-9.0, -9.0, 0.0), DVec3::new(9.0, -9.0, 0.0), DVec3::new(0.0, 9.0, 0.0)];
+    const TRIANGLE: [DVec3; 3] = [
+        DVec3::new(-9.0, -9.0, 0.0),
+        DVec3::new(9.0, -9.0, 0.0),
+        DVec3::new(0.0, 9.0, 0.0),
+    ];
 
     #[test]
     fn a_triangle_about_the_ball_gives_the_whole_disc() {
@@ -116,7 +141,12 @@ mod tests {
 
     #[test]
     fn a_segment_through_the_centre_is_clipped_at_both_ends() {
-        let share = clipped_share(DVec3::new(-4.0, 0.0, 0.0), DVec3::new(4.0, 0.0, 0.0), DVec3::ZERO, 1.0);
+        let share = clipped_share(
+            DVec3::new(-4.0, 0.0, 0.0),
+            DVec3::new(4.0, 0.0, 0.0),
+            DVec3::ZERO,
+            1.0,
+        );
         assert!((share - 0.25).abs() < 1e-12);
     }
 }

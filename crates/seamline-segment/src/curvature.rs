@@ -45,7 +45,11 @@ impl StepSettings for CurvatureSettings {
             Profile::Cad => Carrier::Facets,
             Profile::Lavoue2005 => Carrier::Vertices,
         };
-        Self { carrier, tensor: TensorForm::Spokes, ball_radius: 0.01 }
+        Self {
+            carrier,
+            tensor: TensorForm::Spokes,
+            ball_radius: 0.01,
+        }
     }
 
     fn check(&self) -> Result<(), OutOfRange> {
@@ -58,7 +62,9 @@ impl StepSettings for CurvatureSettings {
 }
 
 pub(crate) fn systems() -> StageSystems {
-    (measure_vertices, gather_samples).chain().in_set(Stage::Curvature)
+    (measure_vertices, gather_samples)
+        .chain()
+        .in_set(Stage::Curvature)
 }
 
 /// Fills the curvature columns of all vertices.
@@ -85,7 +91,11 @@ pub(crate) fn measure_vertices(
         principal_frames(&bending, &sharp_vertices, &tensors, pick)
     };
     for (to, frame) in full.iter_mut().zip(frames(|t| &t.full)) {
-        *to = VertexCurvature { k: frame.k, d_min: frame.d_min, d_max: frame.d_max };
+        *to = VertexCurvature {
+            k: frame.k,
+            d_min: frame.d_min,
+            d_max: frame.d_max,
+        };
     }
     for (to, frame) in smooth.iter_mut().zip(frames(|t| &t.smooth)) {
         to.0 = frame.k;
@@ -107,7 +117,12 @@ pub(crate) fn principal_frames(
             if sharp[v].0 {
                 free_principal_frame(pick(pair))
             } else {
-                let normal = vertex_normal(bending.topology, bending.positions, bending.shapes, v as u32);
+                let normal = vertex_normal(
+                    bending.topology,
+                    bending.positions,
+                    bending.shapes,
+                    v as u32,
+                );
                 tangent_principal_frame(pick(pair), normal)
             }
         })
@@ -116,11 +131,17 @@ pub(crate) fn principal_frames(
 
 /// Unit normal of a vertex: the normals of its faces, weighted by their angles at it. Zero where they
 /// cancel out or there are none.
-fn vertex_normal(topology: &Topology, positions: &[Position], shapes: &[FaceShape], v: u32) -> DVec3 {
+fn vertex_normal(
+    topology: &Topology,
+    positions: &[Position],
+    shapes: &[FaceShape],
+    v: u32,
+) -> DVec3 {
     let here = positions[v as usize].0;
     let mut sum = DVec3::ZERO;
     for &face in topology.vertex_faces.row(v as usize) {
-        let [a, b] = others(topology.triangles[face as usize], v).map(|w| positions[w as usize].0 - here);
+        let [a, b] =
+            others(topology.triangles[face as usize], v).map(|w| positions[w as usize].0 - here);
         let angle = a.cross(b).length().atan2(a.dot(b));
         sum += shapes[face as usize].normal * angle;
     }
@@ -141,21 +162,34 @@ fn others([a, b, c]: [u32; 3], v: u32) -> [u32; 2] {
 fn gather_samples(world: &mut World) {
     let used = {
         let topology = &world.resource::<MeshTopology>().0;
-        (0..topology.vertex_faces.row_count()).map(|v| !topology.vertex_faces.row(v).is_empty())
+        (0..topology.vertex_faces.row_count())
+            .map(|v| !topology.vertex_faces.row(v).is_empty())
             .collect::<Vec<_>>()
     };
-    let sharp: Vec<bool> = rows::column_mut::<SharpVertex>(world).iter().map(|s| s.0).collect();
+    let sharp: Vec<bool> = rows::column_mut::<SharpVertex>(world)
+        .iter()
+        .map(|s| s.0)
+        .collect();
     let samples: Vec<Sample> = rows::column_mut::<SmoothCurvature>(world)
         .iter()
         .enumerate()
         .filter(|&(v, _)| used[v] && !sharp[v])
-        .map(|(v, k)| Sample { curvature: k.0.feature(), vertex: v as u32, ..Sample::default() })
+        .map(|(v, k)| Sample {
+            curvature: k.0.feature(),
+            vertex: v as u32,
+            ..Sample::default()
+        })
         .collect();
     rows::resize::<Samples>(world, samples.len());
-    for (feature, sample) in rows::column_mut::<SampleFeature>(world).iter_mut().zip(&samples) {
+    for (feature, sample) in rows::column_mut::<SampleFeature>(world)
+        .iter_mut()
+        .zip(&samples)
+    {
         feature.0 = sample.curvature;
     }
     rows::column_mut(world).copy_from_slice(&samples);
     rows::column_mut(world).fill(FaceSample(NONE));
-    world.resource_mut::<Counts>().note(Stage::Curvature, "samples", samples.len());
+    world
+        .resource_mut::<Counts>()
+        .note(Stage::Curvature, "samples", samples.len());
 }

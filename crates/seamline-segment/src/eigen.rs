@@ -19,9 +19,20 @@ impl PrincipalFrame {
     /// From the two eigenvalues and their vectors: the greater in magnitude is the greatest curvature and
     /// lies along the other's direction.
     fn sorted(first: (f64, DVec3), second: (f64, DVec3)) -> Self {
-        let (big, small) = if first.0.abs() >= second.0.abs() { (first, second) } else { (second, first) };
-        let k = Principal { k_max: big.0.abs(), k_min: small.0 * big.0.signum() };
-        Self { k, d_min: big.1, d_max: small.1 }
+        let (big, small) = if first.0.abs() >= second.0.abs() {
+            (first, second)
+        } else {
+            (second, first)
+        };
+        let k = Principal {
+            k_max: big.0.abs(),
+            k_min: small.0 * big.0.signum(),
+        };
+        Self {
+            k,
+            d_min: big.1,
+            d_max: small.1,
+        }
     }
 }
 
@@ -40,7 +51,10 @@ pub fn tangent_principal_frame(tensor: &SymmetricTensor, normal: DVec3) -> Princ
     let radius = half.hypot(m12);
     let angle = 0.5 * m12.atan2(half);
     let plus = e1 * angle.cos() + e2 * angle.sin();
-    PrincipalFrame::sorted((middle + radius, plus), (middle - radius, normal.cross(plus)))
+    PrincipalFrame::sorted(
+        (middle + radius, plus),
+        (middle - radius, normal.cross(plus)),
+    )
 }
 
 /// The frame of a tensor by its two eigenvalues greatest in magnitude, for vertices without a tangent
@@ -95,7 +109,12 @@ fn eigen(&SymmetricTensor([xx, yy, zz, xy, xz, yz]): &SymmetricTensor) -> [(f64,
             }
         }
     }
-    [0, 1, 2].map(|i| (a[i][i], DVec3::new(vectors[0][i], vectors[1][i], vectors[2][i])))
+    [0, 1, 2].map(|i| {
+        (
+            a[i][i],
+            DVec3::new(vectors[0][i], vectors[1][i], vectors[2][i]),
+        )
+    })
 }
 
 #[cfg(test)]
@@ -106,7 +125,14 @@ mod tests {
     fn tensor_of(pairs: [(f64, DVec3); 3]) -> SymmetricTensor {
         let mut t = [0.0; 6];
         for (value, v) in pairs {
-            let products = [v.x * v.x, v.y * v.y, v.z * v.z, v.x * v.y, v.x * v.z, v.y * v.z];
+            let products = [
+                v.x * v.x,
+                v.y * v.y,
+                v.z * v.z,
+                v.x * v.y,
+                v.x * v.z,
+                v.y * v.z,
+            ];
             for (sum, product) in t.iter_mut().zip(products) {
                 *sum += value * product;
             }
@@ -137,7 +163,10 @@ mod tests {
     #[test]
     fn the_greater_in_magnitude_is_never_negative_and_a_saddle_has_a_negative_lesser() {
         let t = tensor_of([(-3.0, DVec3::X), (1.0, DVec3::Y), (0.0, DVec3::Z)]);
-        for frame in [tangent_principal_frame(&t, DVec3::Z), free_principal_frame(&t)] {
+        for frame in [
+            tangent_principal_frame(&t, DVec3::Z),
+            free_principal_frame(&t),
+        ] {
             assert!((frame.k.k_max - 3.0).abs() < 1e-12);
             assert!((frame.k.k_min + 1.0).abs() < 1e-12);
             assert!(frame.d_min.dot(DVec3::X).abs() > 1.0 - 1e-12);

@@ -7,9 +7,7 @@
 //! of the first child, which sits in the parent's row, is the parent's.
 
 use bevy_ecs::prelude::*;
-use seamline_ecs::components::{
-    DihedralAngle, FaceShape, Position, SharpEdge, SharpVertex,
-};
+use seamline_ecs::components::{DihedralAngle, FaceShape, Position, SharpEdge, SharpVertex};
 use seamline_ecs::rows::{self, Edges, Faces, Vertices};
 use seamline_ecs::{Column, Counts, MeshTopology, Stage, StageSystems};
 use seamline_mesh::Topology;
@@ -33,11 +31,16 @@ fn find_sharp_triangles(topology: Res<MeshTopology>, sharp: Column<SharpVertex>)
     let sharp = &sharp[..];
     let all_sharp = |corners: &[u32; 3]| corners.iter().all(|&v| sharp[v as usize].0);
     let triangles = topology.0.triangles.iter().enumerate();
-    triangles.filter(|(_, corners)| all_sharp(corners)).map(|(face, _)| face as u32).collect()
+    triangles
+        .filter(|(_, corners)| all_sharp(corners))
+        .map(|(face, _)| face as u32)
+        .collect()
 }
 
 fn split(In(parents): In<Vec<u32>>, world: &mut World) {
-    world.resource_mut::<Counts>().note(Stage::Sharp, "inserted_vertices", parents.len());
+    world
+        .resource_mut::<Counts>()
+        .note(Stage::Sharp, "inserted_vertices", parents.len());
     let original = std::mem::take(&mut world.resource_mut::<MeshTopology>().0);
     let [old_vertices, old_faces, old_edges] = original.counts();
     let mut enriched = original.clone();
@@ -57,18 +60,29 @@ fn split(In(parents): In<Vec<u32>>, world: &mut World) {
     rows::column_mut(world)[old_edges..].fill(SharpEdge(false));
 
     let shapes = rows::column_mut::<FaceShape>(world);
-    let parents: Vec<_> = parents.into_iter().map(|face| (face, shapes[face as usize])).collect();
+    let parents: Vec<_> = parents
+        .into_iter()
+        .map(|face| (face, shapes[face as usize]))
+        .collect();
     for (i, &(parent, shape)) in parents.iter().enumerate() {
-        let child = FaceShape { area: shape.area / 3.0, ..shape };
+        let child = FaceShape {
+            area: shape.area / 3.0,
+            ..shape
+        };
         shapes[parent as usize] = child;
         shapes[old_faces + 2 * i..][..2].fill(child);
     }
     world.insert_resource(MeshTopology(enriched));
-    world.insert_resource(BeforeEnrichment { topology: original, parents });
+    world.insert_resource(BeforeEnrichment {
+        topology: original,
+        parents,
+    });
 }
 
 fn remove(world: &mut World) {
-    let Some(before) = world.remove_resource::<BeforeEnrichment>() else { return };
+    let Some(before) = world.remove_resource::<BeforeEnrichment>() else {
+        return;
+    };
     let [vertices, faces, edges] = before.topology.counts();
     rows::resize::<Vertices>(world, vertices);
     rows::resize::<Faces>(world, faces);

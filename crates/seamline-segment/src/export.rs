@@ -6,7 +6,8 @@ use seamline_ecs::components::*;
 use seamline_ecs::results::{Boundary, PatchReport, PatchSummary, Segmentation, VertexQuantities};
 use seamline_ecs::rows::{self, Patches};
 use seamline_ecs::{
-    Column, ColumnMut, Counts, InputMesh, MeshScale, MeshTopology, Stage, StageSystems, StepError, fallible,
+    Column, ColumnMut, Counts, InputMesh, MeshScale, MeshTopology, Stage, StageSystems, StepError,
+    fallible,
 };
 use seamline_mesh::{EdgeKind, Mesh, examine};
 
@@ -16,12 +17,21 @@ use crate::eigen::free_principal_frame;
 use crate::tensor::{Bending, TensorForm, face_tensors, over, vertex_tensors};
 
 pub(crate) fn systems() -> StageSystems {
-    (fallible(check_labels), number_patches, collect.pipe(make_rows)).chain().in_set(Stage::Export)
+    (
+        fallible(check_labels),
+        number_patches,
+        collect.pipe(make_rows),
+    )
+        .chain()
+        .in_set(Stage::Export)
 }
 
 fn check_labels(labels: Column<FaceLabel>) -> Result<(), StepError> {
     let labels = &labels[..];
-    match labels.iter().position(|label| label.0 as usize >= labels.len()) {
+    match labels
+        .iter()
+        .position(|label| label.0 as usize >= labels.len())
+    {
         None => Ok(()),
         Some(face) => Err(StepError::new(
             format!("face {face} was given the label {}", labels[face].0),
@@ -57,7 +67,10 @@ fn number_patches(
     for (label, &face) in labels.iter_mut().zip(&mesh.face_of_triangle) {
         label.0 = of_face[face as usize];
     }
-    *patches = FacePatches { of_face, count: count as usize };
+    *patches = FacePatches {
+        of_face,
+        count: count as usize,
+    };
 }
 
 /// The patch of each input face, and how many patches there are.
@@ -80,7 +93,9 @@ fn label_faces(mesh: &Mesh, shapes: &[FaceShape], labels: &[FaceLabel]) -> Vec<u
                 None => areas.push((labels[t].0, shapes[t].area)),
             }
         }
-        let most = areas.iter().max_by(|a, b| a.1.total_cmp(&b.1).then(b.0.cmp(&a.0)));
+        let most = areas
+            .iter()
+            .max_by(|a, b| a.1.total_cmp(&b.1).then(b.0.cmp(&a.0)));
         of_face[same_face[0] as usize] = most.map_or(NONE, |(label, _)| *label);
         triangle += same_face.len();
     }
@@ -99,9 +114,15 @@ fn label_empty_faces(mesh: &Mesh, labels: &[FaceLabel], of_face: &mut [u32]) {
         }
         let corners = mesh.polygons.face(face);
         let shared = |t: &u32| {
-            mesh.triangles[*t as usize].iter().filter(|v| corners.contains(v)).count()
+            mesh.triangles[*t as usize]
+                .iter()
+                .filter(|v| corners.contains(v))
+                .count()
         };
-        let touching = corners.iter().flat_map(|&v| around.row(v as usize)).copied();
+        let touching = corners
+            .iter()
+            .flat_map(|&v| around.row(v as usize))
+            .copied();
         let nearest = touching.max_by_key(|t| (shared(t), std::cmp::Reverse(*t)));
         of_face[face] = match nearest {
             Some(t) => labels[t as usize].0,
@@ -134,8 +155,14 @@ fn collect(
     };
     let curvatures = face_curvatures(&bending, &facet_of_face, &samples);
     let boundaries = boundaries(&bending, &labels, scale.length);
-    let summaries =
-        summaries(&bending, &labels, &curvatures, &patches.of_face, patches.count, scale.length);
+    let summaries = summaries(
+        &bending,
+        &labels,
+        &curvatures,
+        &patches.of_face,
+        patches.count,
+        scale.length,
+    );
     Segmentation {
         face_patches: patches.of_face.clone(),
         patches: with_neighbours(summaries, &boundaries),
@@ -148,7 +175,10 @@ fn collect(
 
 fn make_rows(In(segmentation): In<Segmentation>, world: &mut World) {
     rows::resize::<Patches>(world, segmentation.patches.len());
-    for (row, patch) in rows::column_mut::<Patch>(world).iter_mut().zip(&segmentation.patches) {
+    for (row, patch) in rows::column_mut::<Patch>(world)
+        .iter_mut()
+        .zip(&segmentation.patches)
+    {
         row.0 = patch.summary;
     }
     let mut counts = world.resource_mut::<Counts>();
@@ -159,20 +189,31 @@ fn make_rows(In(segmentation): In<Segmentation>, world: &mut World) {
 
 /// Principal curvatures of each face: those of its facet after filtering, where facets carry curvature,
 /// else those of its own tensor, sharp edges left out.
-fn face_curvatures(bending: &Bending, facet_of_face: &[FaceSample], samples: &[Sample]) -> Vec<Principal> {
+fn face_curvatures(
+    bending: &Bending,
+    facet_of_face: &[FaceSample],
+    samples: &[Sample],
+) -> Vec<Principal> {
     let carried = facet_of_face.first().is_some_and(|facet| facet.0 != NONE);
     if carried {
         let signed = |sample: &Sample| {
             let sign = free_principal_frame(&sample.tensor).k.k_min.signum();
             let [k_min, k_max] = sample.curvature;
-            Principal { k_min: k_min * sign, k_max }
+            Principal {
+                k_min: k_min * sign,
+                k_max,
+            }
         };
         let of_facet: Vec<_> = samples.par_iter().with_min_len(2048).map(signed).collect();
-        return facet_of_face.iter().map(|facet| of_facet[facet.0 as usize]).collect();
+        return facet_of_face
+            .iter()
+            .map(|facet| of_facet[facet.0 as usize])
+            .collect();
     }
     let tensors = face_tensors(bending);
     let own = tensors.par_iter().zip(bending.shapes).with_min_len(2048);
-    own.map(|(tensor, shape)| free_principal_frame(&over(&tensor.smooth, shape.area)).k).collect()
+    own.map(|(tensor, shape)| free_principal_frame(&over(&tensor.smooth, shape.area)).k)
+        .collect()
 }
 
 /// Curvature at every vertex for display, by the `ring` form with sharp edges left out: exact on prisms,
@@ -183,8 +224,14 @@ fn vertex_quantities(bending: &Bending, sharp: &[SharpVertex], length: f64) -> V
     VertexQuantities {
         k_min: frames.iter().map(|f| (f.k.k_min / length) as f32).collect(),
         k_max: frames.iter().map(|f| (f.k.k_max / length) as f32).collect(),
-        d_min: frames.iter().map(|f| f.d_min.as_vec3().to_array()).collect(),
-        d_max: frames.iter().map(|f| f.d_max.as_vec3().to_array()).collect(),
+        d_min: frames
+            .iter()
+            .map(|f| f.d_min.as_vec3().to_array())
+            .collect(),
+        d_max: frames
+            .iter()
+            .map(|f| f.d_max.as_vec3().to_array())
+            .collect(),
     }
 }
 
@@ -212,7 +259,10 @@ fn boundaries(bending: &Bending, labels: &[FaceLabel], length: f64) -> Vec<Bound
                 .filter(|(_, (_, e))| bending.sharp[*e as usize].0)
                 .map(|(length, _)| length)
                 .sum();
-            let ends: Vec<_> = common.iter().map(|&(_, e)| topology.edge_vertices[e as usize]).collect();
+            let ends: Vec<_> = common
+                .iter()
+                .map(|&(_, e)| topology.edge_vertices[e as usize])
+                .collect();
             Boundary {
                 patches: common[0].0,
                 length: whole * length,
@@ -286,7 +336,11 @@ fn with_neighbours(summaries: Vec<PatchSummary>, boundaries: &[Boundary]) -> Vec
     reports
         .map(|(id, (summary, mut neighbours))| {
             neighbours.sort_unstable();
-            PatchReport { id: id as u32, summary, neighbours }
+            PatchReport {
+                id: id as u32,
+                summary,
+                neighbours,
+            }
         })
         .collect()
 }

@@ -5,7 +5,7 @@ use glam::DVec3;
 use rayon::prelude::*;
 use seamline_ecs::components::{FaceShape, Position};
 use seamline_ecs::{Column, ColumnMut, MeshTopology, Stage, StageSystems};
-use seamline_mesh::{Topology, NO_FACE};
+use seamline_mesh::{NO_FACE, Topology};
 
 /// Faces whose area is at most this (in the scaled mesh, whose size is about 1) have no normal of their
 /// own.
@@ -31,13 +31,21 @@ fn shape_faces(
 /// A face of no area takes the normal of the neighbour across its longest edge, if that has one: a needle
 /// must not make a crease of 90 degrees. A face whose neighbours have none either keeps a zero normal.
 pub fn face_shapes(topology: &Topology, positions: &[Position], shapes: &mut [FaceShape]) {
-    shapes.par_iter_mut().zip(&topology.triangles).with_min_len(4096).for_each(|(shape, corners)| {
-        let [a, b, c] = corners.map(|v| positions[v as usize].0);
-        let doubled = (b - a).cross(c - a);
-        let area = doubled.length() / 2.0;
-        let normal = if area > ZERO_AREA { doubled / (2.0 * area) } else { DVec3::ZERO };
-        *shape = FaceShape { normal, area };
-    });
+    shapes
+        .par_iter_mut()
+        .zip(&topology.triangles)
+        .with_min_len(4096)
+        .for_each(|(shape, corners)| {
+            let [a, b, c] = corners.map(|v| positions[v as usize].0);
+            let doubled = (b - a).cross(c - a);
+            let area = doubled.length() / 2.0;
+            let normal = if area > ZERO_AREA {
+                doubled / (2.0 * area)
+            } else {
+                DVec3::ZERO
+            };
+            *shape = FaceShape { normal, area };
+        });
     let mut bare: Vec<u32> = (0..shapes.len() as u32)
         .filter(|&face| shapes[face as usize].normal == DVec3::ZERO)
         .collect();
@@ -63,9 +71,15 @@ pub fn face_shapes(topology: &Topology, positions: &[Position], shapes: &mut [Fa
 fn across_longest_edge(topology: &Topology, positions: &[Position], face: u32) -> Option<u32> {
     let length = |edge: u32| {
         let [a, b] = topology.edge_vertices[edge as usize];
-        positions[a as usize].0.distance_squared(positions[b as usize].0)
+        positions[a as usize]
+            .0
+            .distance_squared(positions[b as usize].0)
     };
     let edges = topology.face_edges[face as usize];
-    let longest = edges.into_iter().max_by(|&a, &b| length(a).total_cmp(&length(b)))?;
-    topology.neighbour(face, longest).filter(|&across| across != NO_FACE)
+    let longest = edges
+        .into_iter()
+        .max_by(|&a, &b| length(a).total_cmp(&length(b)))?;
+    topology
+        .neighbour(face, longest)
+        .filter(|&across| across != NO_FACE)
 }

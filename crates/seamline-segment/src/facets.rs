@@ -40,22 +40,37 @@ impl StepSettings for FacetSettings {
     const TABLE: &'static str = "facets";
 
     fn defaults(_: Profile) -> Self {
-        Self { flat_deg: 0.1, median_rounds: 2, similar_area_share: 0.5, barely_curved: 0.5 }
+        Self {
+            flat_deg: 0.1,
+            median_rounds: 2,
+            similar_area_share: 0.5,
+            barely_curved: 0.5,
+        }
     }
 
     fn check(&self) -> Result<(), OutOfRange> {
-        OutOfRange::unless((0.0..90.0).contains(&self.flat_deg), "flat_deg", "an angle from 0 to 90 degrees")?;
+        OutOfRange::unless(
+            (0.0..90.0).contains(&self.flat_deg),
+            "flat_deg",
+            "an angle from 0 to 90 degrees",
+        )?;
         OutOfRange::unless(
             (0.0..1.0).contains(&self.similar_area_share),
             "similar_area_share",
             "a share from 0 to 1",
         )?;
-        OutOfRange::unless(self.barely_curved > 0.0, "barely_curved", "a curvature above 0")
+        OutOfRange::unless(
+            self.barely_curved > 0.0,
+            "barely_curved",
+            "a curvature above 0",
+        )
     }
 }
 
 pub(crate) fn systems() -> StageSystems {
-    (measure.pipe(make_rows), filter).chain().in_set(Stage::Curvature)
+    (measure.pipe(make_rows), filter)
+        .chain()
+        .in_set(Stage::Curvature)
 }
 
 /// The facets of a mesh.
@@ -93,9 +108,17 @@ pub fn find_facets(bending: &Bending, flat: f64) -> Facets {
     let sample = |(sum, normal, area): &(SymmetricTensor, DVec3, f64)| {
         let tensor = over(sum, *area);
         let frame = tangent_principal_frame(&tensor, normal.normalize_or_zero());
-        Sample { area: *area, curvature: frame.k.feature(), tensor, vertex: NONE }
+        Sample {
+            area: *area,
+            curvature: frame.k.feature(),
+            tensor,
+            vertex: NONE,
+        }
     };
-    Facets { of_face, samples: sums.par_iter().with_min_len(2048).map(sample).collect() }
+    Facets {
+        of_face,
+        samples: sums.par_iter().with_min_len(2048).map(sample).collect(),
+    }
 }
 
 fn measure(
@@ -106,18 +129,28 @@ fn measure(
     angles: Column<DihedralAngle>,
     sharp: Column<SharpEdge>,
 ) -> Facets {
-    let bending =
-        Bending { topology: &topology.0, positions: &positions, shapes: &shapes, angles: &angles, sharp: &sharp };
+    let bending = Bending {
+        topology: &topology.0,
+        positions: &positions,
+        shapes: &shapes,
+        angles: &angles,
+        sharp: &sharp,
+    };
     find_facets(&bending, settings.flat_deg.to_radians())
 }
 
 fn make_rows(In(facets): In<Facets>, world: &mut World) {
     rows::resize::<Samples>(world, facets.samples.len());
     rows::column_mut(world).copy_from_slice(&facets.samples);
-    for (row, facet) in rows::column_mut::<FaceSample>(world).iter_mut().zip(facets.of_face) {
+    for (row, facet) in rows::column_mut::<FaceSample>(world)
+        .iter_mut()
+        .zip(facets.of_face)
+    {
         row.0 = facet;
     }
-    world.resource_mut::<Counts>().note(Stage::Curvature, "samples", facets.samples.len());
+    world
+        .resource_mut::<Counts>()
+        .note(Stage::Curvature, "samples", facets.samples.len());
 }
 
 fn filter(
@@ -134,7 +167,9 @@ fn filter(
         median_filter(&pairs, settings.similar_area_share, samples);
     }
     for (feature, sample) in features.iter_mut().zip(samples) {
-        feature.0 = sample.curvature.map(|c| (c / settings.barely_curved).ln_1p());
+        feature.0 = sample
+            .curvature
+            .map(|c| (c / settings.barely_curved).ln_1p());
     }
 }
 
@@ -146,7 +181,9 @@ fn smooth_neighbours(
 ) -> Vec<[u32; 2]> {
     let mut pairs: Vec<[u32; 2]> = Vec::new();
     for (edge, sharp) in sharp.iter().enumerate() {
-        let Some([a, b]) = topology.face_pair(edge) else { continue };
+        let Some([a, b]) = topology.face_pair(edge) else {
+            continue;
+        };
         let [a, b] = [a, b].map(|face| facet_of_face[face as usize].0);
         if !sharp.0 && a != b {
             pairs.extend([[a, b], [b, a]]);
@@ -168,9 +205,8 @@ fn median_filter(pairs: &[[u32; 2]], similar: f64, samples: &mut [Sample]) {
         .with_min_len(512)
         .filter_map(|row| {
             let own = &samples[row[0][0] as usize];
-            let alike = |other: &&Sample| {
-                own.area.min(other.area) > similar * own.area.max(other.area)
-            };
+            let alike =
+                |other: &&Sample| own.area.min(other.area) > similar * own.area.max(other.area);
             let mut values: Vec<[f64; 2]> = row
                 .iter()
                 .map(|pair| &samples[pair[1] as usize])
@@ -181,7 +217,10 @@ fn median_filter(pairs: &[[u32; 2]], similar: f64, samples: &mut [Sample]) {
                 return None;
             }
             values.push(own.curvature);
-            Some((row[0][0], [0, 1].map(|k| median(values.iter().map(|v| v[k]).collect()))))
+            Some((
+                row[0][0],
+                [0, 1].map(|k| median(values.iter().map(|v| v[k]).collect())),
+            ))
         })
         .collect();
     for (facet, curvature) in filtered {
@@ -193,5 +232,9 @@ fn median_filter(pairs: &[[u32; 2]], similar: f64, samples: &mut [Sample]) {
 fn median(mut values: Vec<f64>) -> f64 {
     values.sort_unstable_by(f64::total_cmp);
     let half = values.len() / 2;
-    if values.len() % 2 == 1 { values[half] } else { (values[half - 1] + values[half]) / 2.0 }
+    if values.len() % 2 == 1 {
+        values[half]
+    } else {
+        (values[half - 1] + values[half]) / 2.0
+    }
 }

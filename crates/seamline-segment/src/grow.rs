@@ -9,11 +9,15 @@ use seamline_mesh::Topology;
 use seamline_mesh::Sets;
 
 pub(crate) fn vertex_systems() -> StageSystems {
-    (fallible(check_clusters), grow_from_vertices.pipe(make_rows)).chain().in_set(Stage::Grow)
+    (fallible(check_clusters), grow_from_vertices.pipe(make_rows))
+        .chain()
+        .in_set(Stage::Grow)
 }
 
 pub(crate) fn facet_systems() -> StageSystems {
-    (fallible(check_clusters), grow_from_facets.pipe(make_rows)).chain().in_set(Stage::Grow)
+    (fallible(check_clusters), grow_from_facets.pipe(make_rows))
+        .chain()
+        .in_set(Stage::Grow)
 }
 
 /// Regions as they come out of growing: the region of each face, and the curvature of each region.
@@ -32,22 +36,34 @@ fn check_clusters(clusters: Column<SampleCluster>) -> Result<(), StepError> {
     match clusters.iter().position(|c| c.0 as usize >= clusters.len()) {
         None => Ok(()),
         Some(sample) => Err(StepError::new(
-            format!("the classifier gave sample {sample} the cluster {}", clusters[sample].0),
-            format!("cluster numbers are below the number of samples, {}", clusters.len()),
+            format!(
+                "the classifier gave sample {sample} the cluster {}",
+                clusters[sample].0
+            ),
+            format!(
+                "cluster numbers are below the number of samples, {}",
+                clusters.len()
+            ),
         )),
     }
 }
 
-fn make_rows(
-    In(grown): In<Grown>,
-    world: &mut World,
-) {
-    for (row, label) in rows::column_mut::<FaceLabel>(world).iter_mut().zip(grown.of_face) {
+fn make_rows(In(grown): In<Grown>, world: &mut World) {
+    for (row, label) in rows::column_mut::<FaceLabel>(world)
+        .iter_mut()
+        .zip(grown.of_face)
+    {
         row.0 = label;
     }
     rows::resize::<Regions>(world, grown.curvatures.len());
-    for (row, &curvature) in rows::column_mut::<Region>(world).iter_mut().zip(&grown.curvatures) {
-        *row = Region { curvature, ..Region::default() };
+    for (row, &curvature) in rows::column_mut::<Region>(world)
+        .iter_mut()
+        .zip(&grown.curvatures)
+    {
+        *row = Region {
+            curvature,
+            ..Region::default()
+        };
     }
     let mut counts = world.resource_mut::<Counts>();
     counts.note(Stage::Grow, "regions", grown.curvatures.len());
@@ -63,8 +79,10 @@ fn grow_from_facets(
     clusters: Column<SampleCluster>,
 ) -> Grown {
     let clusters = &clusters[..];
-    let cluster_of_face: Vec<u32> =
-        facet_of_face.iter().map(|facet| clusters[facet.0 as usize].0).collect();
+    let cluster_of_face: Vec<u32> = facet_of_face
+        .iter()
+        .map(|facet| clusters[facet.0 as usize].0)
+        .collect();
     let (of_face, count) = components(&topology.0, &sharp, &cluster_of_face);
 
     let mut sums = vec![([0.0; 2], 0.0); count];
@@ -75,8 +93,18 @@ fn grow_from_facets(
         *sum = [0, 1].map(|k| sum[k] + curvature[k] * shape.area);
         *area += shape.area;
     }
-    let mean = |(sum, area): ([f64; 2], f64)| if area > 0.0 { sum.map(|s| s / area) } else { [0.0; 2] };
-    Grown { of_face, curvatures: sums.into_iter().map(mean).collect(), cracks: 0 }
+    let mean = |(sum, area): ([f64; 2], f64)| {
+        if area > 0.0 {
+            sum.map(|s| s / area)
+        } else {
+            [0.0; 2]
+        }
+    };
+    Grown {
+        of_face,
+        curvatures: sums.into_iter().map(mean).collect(),
+        cracks: 0,
+    }
 }
 
 fn grow_from_vertices(
@@ -113,8 +141,11 @@ pub fn grow_pure_triangles(
         *sum = [0, 1].map(|k| sum[k] + sample.curvature[k]);
         *count += 1;
     }
-    let cluster_of_face: Vec<u32> =
-        topology.triangles.iter().map(|corners| pure_cluster(corners, &cluster_of_vertex)).collect();
+    let cluster_of_face: Vec<u32> = topology
+        .triangles
+        .iter()
+        .map(|corners| pure_cluster(corners, &cluster_of_vertex))
+        .collect();
 
     let (sets, _) = components(topology, sharp, &cluster_of_face);
     let mut region_of_set = vec![NONE; sets.len()];
@@ -135,19 +166,43 @@ pub fn grow_pure_triangles(
 
     let cracks = of_face.iter().filter(|&&label| label == NONE).count();
     fill_cracks(topology, positions, sharp, &mut of_face);
-    label_pockets(topology, sharp, &cluster_of_vertex, &curvature_of_vertex, &mut of_face, &mut curvatures);
-    Grown { of_face, curvatures, cracks }
+    label_pockets(
+        topology,
+        sharp,
+        &cluster_of_vertex,
+        &curvature_of_vertex,
+        &mut of_face,
+        &mut curvatures,
+    );
+    Grown {
+        of_face,
+        curvatures,
+        cracks,
+    }
 }
 
 /// The one cluster of a triangle's vertices that are not sharp, or [`NONE`].
 fn pure_cluster(corners: &[u32; 3], cluster_of_vertex: &[u32]) -> u32 {
-    let mut clusters = corners.iter().map(|&v| cluster_of_vertex[v as usize]).filter(|&c| c != NONE);
-    let Some(first) = clusters.next() else { return NONE };
-    if clusters.all(|c| c == first) { first } else { NONE }
+    let mut clusters = corners
+        .iter()
+        .map(|&v| cluster_of_vertex[v as usize])
+        .filter(|&c| c != NONE);
+    let Some(first) = clusters.next() else {
+        return NONE;
+    };
+    if clusters.all(|c| c == first) {
+        first
+    } else {
+        NONE
+    }
 }
 
 /// Faces of equal cluster, connected over edges that are not sharp: a number a face, by lowest face.
-fn components(topology: &Topology, sharp: &[SharpEdge], cluster_of_face: &[u32]) -> (Vec<u32>, usize) {
+fn components(
+    topology: &Topology,
+    sharp: &[SharpEdge],
+    cluster_of_face: &[u32],
+) -> (Vec<u32>, usize) {
     let mut sets = Sets::new(cluster_of_face.len());
     for (edge, sharp) in sharp.iter().enumerate() {
         if let Some([a, b]) = topology.face_pair(edge)
@@ -162,13 +217,23 @@ fn components(topology: &Topology, sharp: &[SharpEdge], cluster_of_face: &[u32])
 
 /// Crack filling (paper 4.3.2): in rounds, every face without a region that touches regions over edges that
 /// are not sharp takes the one with the greatest common length, the lower of equals.
-fn fill_cracks(topology: &Topology, positions: &[Position], sharp: &[SharpEdge], of_face: &mut [u32]) {
-    let mut rim: Vec<u32> = (0..of_face.len() as u32).filter(|&f| of_face[f as usize] == NONE).collect();
+fn fill_cracks(
+    topology: &Topology,
+    positions: &[Position],
+    sharp: &[SharpEdge],
+    of_face: &mut [u32],
+) {
+    let mut rim: Vec<u32> = (0..of_face.len() as u32)
+        .filter(|&f| of_face[f as usize] == NONE)
+        .collect();
     while !rim.is_empty() {
         let taken: Vec<(u32, u32)> = rim
             .iter()
             .filter_map(|&face| {
-                Some((face, longest_neighbour(topology, positions, sharp, of_face, face)?))
+                Some((
+                    face,
+                    longest_neighbour(topology, positions, sharp, of_face, face)?,
+                ))
             })
             .collect();
         let mut next = Vec::new();
@@ -250,7 +315,12 @@ fn label_pockets(
         vertices.dedup();
         vertices.retain(|&v| cluster_of_vertex[v as usize] != NONE);
         let count = vertices.len().max(1) as f64;
-        let sum = |k: usize| vertices.iter().map(|&v| curvature_of_vertex[v as usize][k]).sum::<f64>();
+        let sum = |k: usize| {
+            vertices
+                .iter()
+                .map(|&v| curvature_of_vertex[v as usize][k])
+                .sum::<f64>()
+        };
         curvatures.push([sum(0) / count, sum(1) / count]);
     }
 }

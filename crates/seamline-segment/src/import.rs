@@ -42,11 +42,18 @@ impl StepSettings for MeshSettings {
             Profile::Cad => ScaleBy::Reach,
             Profile::Lavoue2005 => ScaleBy::LongestSide,
         };
-        Self { weld_share: 0.0, scale }
+        Self {
+            weld_share: 0.0,
+            scale,
+        }
     }
 
     fn check(&self) -> Result<(), OutOfRange> {
-        OutOfRange::unless((0.0..0.1).contains(&self.weld_share), "weld_share", "a share from 0 to 0.1")
+        OutOfRange::unless(
+            (0.0..0.1).contains(&self.weld_share),
+            "weld_share",
+            "a share from 0 to 0.1",
+        )
     }
 }
 
@@ -68,8 +75,11 @@ fn import(world: &mut World) -> Result<(), StepError> {
     rows::resize::<Faces>(world, faces);
     rows::resize::<Edges>(world, edges);
 
-    let positions: Vec<_> =
-        mesh.positions().iter().map(|&p| Position((p - scale.centre) / scale.length)).collect();
+    let positions: Vec<_> = mesh
+        .positions()
+        .iter()
+        .map(|&p| Position((p - scale.centre) / scale.length))
+        .collect();
     rows::column_mut(world).copy_from_slice(&positions);
     let mut counts = world.resource_mut::<Counts>();
     counts.note(Stage::Import, "vertices", vertices);
@@ -102,7 +112,11 @@ fn scale_of(mesh: &Mesh, by: ScaleBy) -> Option<MeshScale> {
         ScaleBy::LongestSide => side,
         ScaleBy::Reach => {
             let middle = moment / area;
-            let reach = mesh.triangles.as_flattened().iter().map(|&v| at(v).distance_squared(middle));
+            let reach = mesh
+                .triangles
+                .as_flattened()
+                .iter()
+                .map(|&v| at(v).distance_squared(middle));
             2.0 * reach.fold(0.0, f64::max).sqrt() * side
         }
     };

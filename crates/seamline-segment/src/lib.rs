@@ -61,30 +61,38 @@ fn install(in_force: &Table) -> Result<InstallStep, SettingsError> {
     let merge: MergeSettings = read(in_force)?;
     let score: ScoreSettings = read(in_force)?;
 
-    Ok(Arc::new(move |world: &mut World, schedule: &mut Schedule| {
-        world.insert_resource(mesh.clone());
-        world.insert_resource(sharp.clone());
-        world.insert_resource(curvature.clone());
-        world.insert_resource(facets.clone());
-        world.insert_resource(merge.clone());
-        world.insert_resource(score.clone());
+    Ok(Arc::new(
+        move |world: &mut World, schedule: &mut Schedule| {
+            world.insert_resource(mesh.clone());
+            world.insert_resource(sharp.clone());
+            world.insert_resource(curvature.clone());
+            world.insert_resource(facets.clone());
+            world.insert_resource(merge.clone());
+            world.insert_resource(score.clone());
 
-        world.init_resource::<export::FacePatches>();
+            world.init_resource::<export::FacePatches>();
 
-        schedule.add_systems((import::systems(), face_shape::systems()));
-        let on_vertices = curvature.carrier == Carrier::Vertices;
-        if on_vertices && sharp.enrich {
-            schedule.add_systems((sharp::systems(), enrich::systems()).chain());
-            schedule.add_systems((merge::systems(), enrich::removal()).chain());
-        } else {
-            schedule.add_systems((sharp::systems(), merge::systems()));
-        }
-        schedule.add_systems(match curvature.carrier {
-            Carrier::Vertices => {
-                (curvature::systems(), grow::vertex_systems(), score::vertex_systems())
+            schedule.add_systems((import::systems(), face_shape::systems()));
+            let on_vertices = curvature.carrier == Carrier::Vertices;
+            if on_vertices && sharp.enrich {
+                schedule.add_systems((sharp::systems(), enrich::systems()).chain());
+                schedule.add_systems((merge::systems(), enrich::removal()).chain());
+            } else {
+                schedule.add_systems((sharp::systems(), merge::systems()));
             }
-            Carrier::Facets => (facets::systems(), grow::facet_systems(), score::facet_systems()),
-        });
-        schedule.add_systems(export::systems());
-    }))
+            schedule.add_systems(match curvature.carrier {
+                Carrier::Vertices => (
+                    curvature::systems(),
+                    grow::vertex_systems(),
+                    score::vertex_systems(),
+                ),
+                Carrier::Facets => (
+                    facets::systems(),
+                    grow::facet_systems(),
+                    score::facet_systems(),
+                ),
+            });
+            schedule.add_systems(export::systems());
+        },
+    ))
 }

@@ -74,13 +74,21 @@ impl StepSettings for MergeSettings {
     }
 
     fn check(&self) -> Result<(), OutOfRange> {
-        OutOfRange::unless(self.threshold >= 0.0, "threshold", "a distance of 0 or more")?;
+        OutOfRange::unless(
+            self.threshold >= 0.0,
+            "threshold",
+            "a distance of 0 or more",
+        )?;
         OutOfRange::unless(
             (0.0..=1.0).contains(&self.min_area_share),
             "min_area_share",
             "a share of the whole area from 0 to 1",
         )?;
-        OutOfRange::unless(self.small_factor >= 0.0, "small_factor", "a factor of 0 or more")
+        OutOfRange::unless(
+            self.small_factor >= 0.0,
+            "small_factor",
+            "a factor of 0 or more",
+        )
     }
 }
 
@@ -100,8 +108,15 @@ fn merge_regions(
     mut labels: ColumnMut<FaceLabel>,
 ) -> Vec<Region> {
     let border = (settings.distance == RegionDistance::Boundary).then_some(&curvatures[..]);
-    let graph =
-        RegionGraph::build(&topology.0, &positions, &shapes, &sharp, &labels, regions.to_vec(), border);
+    let graph = RegionGraph::build(
+        &topology.0,
+        &positions,
+        &shapes,
+        &sharp,
+        &labels,
+        regions.to_vec(),
+        border,
+    );
     let (number, regions) = reduce(graph, &settings, facets.barely_curved, border);
     for label in labels.iter_mut() {
         label.0 = number[label.0 as usize];
@@ -112,7 +127,9 @@ fn merge_regions(
 fn make_rows(In(regions): In<Vec<Region>>, world: &mut World) {
     rows::resize::<Regions>(world, regions.len());
     rows::column_mut(world).copy_from_slice(&regions);
-    world.resource_mut::<Counts>().note(Stage::Merge, "regions", regions.len());
+    world
+        .resource_mut::<Counts>()
+        .note(Stage::Merge, "regions", regions.len());
 }
 
 /// A link on the heap, shortest first; of equals, the one with the lower regions.
@@ -129,7 +146,10 @@ impl Eq for Candidate {}
 impl Ord for Candidate {
     fn cmp(&self, other: &Self) -> Ordering {
         let order = self.distance.total_cmp(&other.distance);
-        order.then(self.regions.cmp(&other.regions)).then(self.stamp.cmp(&other.stamp)).reverse()
+        order
+            .then(self.regions.cmp(&other.regions))
+            .then(self.stamp.cmp(&other.stamp))
+            .reverse()
     }
 }
 
@@ -152,7 +172,13 @@ pub fn reduce(
     let small_below = settings.min_area_share * total_area;
     let distance = |graph: &RegionGraph, a: u32, b: u32, link: u32| {
         let pair = [&graph.regions[a as usize], &graph.regions[b as usize]];
-        region_distance(settings, barely_curved, small_below, pair, &graph.links[link as usize])
+        region_distance(
+            settings,
+            barely_curved,
+            small_below,
+            pair,
+            &graph.links[link as usize],
+        )
     };
 
     let mut stamps = vec![0u32; graph.links.len()];
@@ -160,7 +186,11 @@ pub fn reduce(
     for a in 0..graph.regions.len() as u32 {
         for (&b, &link) in graph.neighbours[a as usize].range(a..) {
             if let Some(distance) = distance(&graph, a, b, link) {
-                heap.push(Candidate { distance, regions: [a, b], stamp: 0 });
+                heap.push(Candidate {
+                    distance,
+                    regions: [a, b],
+                    stamp: 0,
+                });
             }
         }
     }
@@ -168,7 +198,12 @@ pub fn reduce(
     let mut sets = Sets::new(graph.regions.len());
     let mut left = graph.regions.len();
     let wanted = settings.regions as usize;
-    while let Some(Candidate { distance: shortest, regions: [kept, gone], stamp }) = heap.pop() {
+    while let Some(Candidate {
+        distance: shortest,
+        regions: [kept, gone],
+        stamp,
+    }) = heap.pop()
+    {
         if left <= wanted || (wanted == 0 && shortest > settings.threshold) {
             break;
         }
@@ -183,13 +218,22 @@ pub fn reduce(
             stamps[link as usize] += 1;
             if let Some(distance) = distance(&graph, kept, other, link) {
                 let regions = [kept.min(other), kept.max(other)];
-                heap.push(Candidate { distance, regions, stamp: stamps[link as usize] });
+                heap.push(Candidate {
+                    distance,
+                    regions,
+                    stamp: stamps[link as usize],
+                });
             }
         }
     }
 
-    let roots: Vec<u32> = (0..graph.regions.len() as u32).filter(|&r| sets.first(r) == r).collect();
-    let regions = roots.iter().map(|&root| graph.regions[root as usize]).collect();
+    let roots: Vec<u32> = (0..graph.regions.len() as u32)
+        .filter(|&r| sets.first(r) == r)
+        .collect();
+    let regions = roots
+        .iter()
+        .map(|&root| graph.regions[root as usize])
+        .collect();
     (sets.numbered().0, regions)
 }
 

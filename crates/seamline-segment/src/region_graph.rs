@@ -3,7 +3,9 @@
 use std::collections::BTreeMap;
 
 use rayon::prelude::*;
-use seamline_ecs::components::{FaceLabel, FaceShape, Position, Region, SharpEdge, VertexCurvature};
+use seamline_ecs::components::{
+    FaceLabel, FaceShape, Position, Region, SharpEdge, VertexCurvature,
+};
 use seamline_mesh::{EdgeKind, Topology};
 
 /// What two regions have in common.
@@ -113,14 +115,21 @@ impl RegionGraph {
         }
         for (face, edges) in topology.face_edges.iter().enumerate() {
             for &edge in edges {
-                if matches!(topology.edge_kind[edge as usize], EdgeKind::Border | EdgeKind::NonManifold) {
+                if matches!(
+                    topology.edge_kind[edge as usize],
+                    EdgeKind::Border | EdgeKind::NonManifold
+                ) {
                     regions[labels[face].0 as usize].perimeter += length(edge as usize);
                 }
             }
         }
         common.par_sort_unstable();
 
-        let mut graph = Self { neighbours: vec![BTreeMap::new(); regions.len()], regions, links: Vec::new() };
+        let mut graph = Self {
+            neighbours: vec![BTreeMap::new(); regions.len()],
+            regions,
+            links: Vec::new(),
+        };
         for edges in common.chunk_by(|a, b| (a.0, a.1) == (b.0, b.1)) {
             let mut link = Link::default();
             for &(_, _, edge) in edges {
@@ -155,7 +164,11 @@ impl RegionGraph {
         let area = a.area + b.area;
         let blend = |k: usize| (a.curvature[k] * a.area + b.curvature[k] * b.area) / area;
         self.regions[kept as usize] = Region {
-            curvature: if area > 0.0 { [blend(0), blend(1)] } else { a.curvature },
+            curvature: if area > 0.0 {
+                [blend(0), blend(1)]
+            } else {
+                a.curvature
+            },
             area,
             perimeter: (a.perimeter + b.perimeter - 2.0 * common_length).max(0.0),
         };

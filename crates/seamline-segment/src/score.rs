@@ -26,11 +26,17 @@ impl StepSettings for ScoreSettings {
     const TABLE: &'static str = "score";
 
     fn defaults(_: Profile) -> Self {
-        Self { curvature_weight: 0.5 }
+        Self {
+            curvature_weight: 0.5,
+        }
     }
 
     fn check(&self) -> Result<(), OutOfRange> {
-        OutOfRange::unless(self.curvature_weight >= 0.0, "curvature_weight", "a weight of 0 or more")
+        OutOfRange::unless(
+            self.curvature_weight >= 0.0,
+            "curvature_weight",
+            "a weight of 0 or more",
+        )
     }
 }
 
@@ -45,7 +51,9 @@ const UNDECIDED_DEG: f64 = 45.0;
 
 pub(crate) fn vertex_systems() -> StageSystems {
     // Measured again, since the mesh is no longer enriched.
-    (measure_vertices, score_by_vertices).chain().in_set(Stage::Score)
+    (measure_vertices, score_by_vertices)
+        .chain()
+        .in_set(Stage::Score)
 }
 
 pub(crate) fn facet_systems() -> StageSystems {
@@ -59,7 +67,13 @@ fn score_by_vertices(
     curvatures: Column<VertexCurvature>,
     mut scores: ColumnMut<BoundaryScore>,
 ) {
-    vertex_scores(&topology.0, &positions, &curvatures, settings.curvature_weight, &mut scores);
+    vertex_scores(
+        &topology.0,
+        &positions,
+        &curvatures,
+        settings.curvature_weight,
+        &mut scores,
+    );
 }
 
 fn score_by_facets(
@@ -73,17 +87,25 @@ fn score_by_facets(
 ) {
     let (topology, positions, shapes) = (&topology.0, &positions[..], &shapes[..]);
     let (facet_of_face, samples) = (&facet_of_face[..], &samples[..]);
-    scores.par_iter_mut().enumerate().with_min_len(2048).for_each(|(edge, score)| {
-        let Some(faces) = topology.face_pair(edge) else {
-            score.0 = 0.0;
-            return;
-        };
-        let facets = faces.map(|face| &samples[facet_of_face[face as usize].0 as usize]);
-        let normal = faces.map(|face| shapes[face as usize].normal);
-        let along = edge_direction(topology, positions, edge);
-        let angle = facet_angle_score(along, facets, normal[0] + normal[1]);
-        score.0 = weighed(angle, facet_curvature_score(facets), settings.curvature_weight);
-    });
+    scores
+        .par_iter_mut()
+        .enumerate()
+        .with_min_len(2048)
+        .for_each(|(edge, score)| {
+            let Some(faces) = topology.face_pair(edge) else {
+                score.0 = 0.0;
+                return;
+            };
+            let facets = faces.map(|face| &samples[facet_of_face[face as usize].0 as usize]);
+            let normal = faces.map(|face| shapes[face as usize].normal);
+            let along = edge_direction(topology, positions, edge);
+            let angle = facet_angle_score(along, facets, normal[0] + normal[1]);
+            score.0 = weighed(
+                angle,
+                facet_curvature_score(facets),
+                settings.curvature_weight,
+            );
+        });
 }
 
 fn edge_direction(topology: &Topology, positions: &[Position], edge: usize) -> DVec3 {
@@ -100,19 +122,30 @@ pub fn vertex_scores(
     curvature_weight: f64,
     scores: &mut [BoundaryScore],
 ) {
-    scores.par_iter_mut().enumerate().with_min_len(2048).for_each(|(edge, score)| {
-        let Some(faces) = topology.face_pair(edge) else {
-            score.0 = 0.0;
-            return;
-        };
-        let along = edge_direction(topology, positions, edge);
-        let ends = topology.edge_vertices[edge].map(|v| &curvatures[v as usize]);
-        let across = faces.map(|face| {
-            curvatures[topology.opposite_vertex(face, edge as u32) as usize].k
+    scores
+        .par_iter_mut()
+        .enumerate()
+        .with_min_len(2048)
+        .for_each(|(edge, score)| {
+            let Some(faces) = topology.face_pair(edge) else {
+                score.0 = 0.0;
+                return;
+            };
+            let along = edge_direction(topology, positions, edge);
+            let ends = topology.edge_vertices[edge].map(|v| &curvatures[v as usize]);
+            let across = faces
+                .map(|face| curvatures[topology.opposite_vertex(face, edge as u32) as usize].k);
+            let angle = ends
+                .map(|end| angle_score(along, end, NO_DIRECTION))
+                .iter()
+                .sum::<f64>()
+                / 2.0;
+            score.0 = weighed(
+                angle,
+                curvature_score(ends.map(|end| end.k), across),
+                curvature_weight,
+            );
         });
-        let angle = ends.map(|end| angle_score(along, end, NO_DIRECTION)).iter().sum::<f64>() / 2.0;
-        score.0 = weighed(angle, curvature_score(ends.map(|end| end.k), across), curvature_weight);
-    });
 }
 
 fn weighed(angle: f64, curvature: f64, weight: f64) -> f64 {
@@ -151,7 +184,11 @@ fn relative_difference(x: Principal, y: Principal) -> f64 {
 
 fn feature_difference(x: [f64; 2], y: [f64; 2]) -> f64 {
     let size = x[0].max(y[0]) + x[1].max(y[1]);
-    if size < NO_DIRECTION { 0.0 } else { ((x[0] - y[0]).abs() + (x[1] - y[1]).abs()) / size }
+    if size < NO_DIRECTION {
+        0.0
+    } else {
+        ((x[0] - y[0]).abs() + (x[1] - y[1]).abs()) / size
+    }
 }
 
 /// The angle score of an edge between two facets, by the mean of their tensors across their mean normal.
@@ -161,7 +198,11 @@ fn facet_angle_score(along: DVec3, [a, b]: [&Sample; 2], normal: DVec3) -> f64 {
         *mean = (a + b) / 2.0;
     }
     let frame = tangent_principal_frame(&mean, normal.normalize_or_zero());
-    let at = VertexCurvature { k: frame.k, d_min: frame.d_min, d_max: frame.d_max };
+    let at = VertexCurvature {
+        k: frame.k,
+        d_min: frame.d_min,
+        d_max: frame.d_max,
+    };
     angle_score(along, &at, NO_FACET_DIRECTION)
 }
 
@@ -181,9 +222,21 @@ mod tests {
 
     /// The score of an edge whose ends have curvature `end` with `d_min` at `turn_deg` from the edge.
     fn score(a: Principal, b: Principal, end: Principal, turn_deg: f64) -> f64 {
-        let d_min = DVec3::new(turn_deg.to_radians().cos(), turn_deg.to_radians().sin(), 0.0);
-        let at = VertexCurvature { k: end, d_min, d_max: d_min.cross(DVec3::Z) };
-        weighed(angle_score(ALONG, &at, NO_DIRECTION), curvature_score([end; 2], [a, b]), 0.5)
+        let d_min = DVec3::new(
+            turn_deg.to_radians().cos(),
+            turn_deg.to_radians().sin(),
+            0.0,
+        );
+        let at = VertexCurvature {
+            k: end,
+            d_min,
+            d_max: d_min.cross(DVec3::Z),
+        };
+        weighed(
+            angle_score(ALONG, &at, NO_DIRECTION),
+            curvature_score([end; 2], [a, b]),
+            0.5,
+        )
     }
 
     fn assert_near(found: f64, expected: f64) {
@@ -217,7 +270,11 @@ mod tests {
     #[test]
     fn an_edge_20_degrees_off_where_curvatures_are_1_and_3_has_an_angle_score_of_32_and_a_half() {
         let d_min = DVec3::new(20f64.to_radians().cos(), 20f64.to_radians().sin(), 0.0);
-        let at = VertexCurvature { k: k(1.0, 3.0), d_min, d_max: d_min.cross(DVec3::Z) };
+        let at = VertexCurvature {
+            k: k(1.0, 3.0),
+            d_min,
+            d_max: d_min.cross(DVec3::Z),
+        };
         assert_near(angle_score(ALONG, &at, NO_DIRECTION), 32.5);
     }
 

@@ -25,7 +25,10 @@ impl StepSettings for SharpSettings {
     const TABLE: &'static str = "sharp";
 
     fn defaults(profile: Profile) -> Self {
-        Self { angle_deg: 40.0, enrich: profile == Profile::Lavoue2005 }
+        Self {
+            angle_deg: 40.0,
+            enrich: profile == Profile::Lavoue2005,
+        }
     }
 
     fn check(&self) -> Result<(), OutOfRange> {
@@ -62,8 +65,16 @@ fn mark_sharp(
     let vertices = &mut vertices[..];
     sharp_edges(&topology.0, &angles, settings.angle_deg.to_radians(), edges);
     sharp_vertices(&topology.0, edges, vertices);
-    counts.note(Stage::Sharp, "sharp_edges", edges.iter().filter(|e| e.0).count());
-    counts.note(Stage::Sharp, "sharp_vertices", vertices.iter().filter(|v| v.0).count());
+    counts.note(
+        Stage::Sharp,
+        "sharp_edges",
+        edges.iter().filter(|e| e.0).count(),
+    );
+    counts.note(
+        Stage::Sharp,
+        "sharp_vertices",
+        vertices.iter().filter(|v| v.0).count(),
+    );
 }
 
 /// Signed dihedral angle of every edge in radians: positive where the surface is convex, 0 where it is
@@ -75,19 +86,29 @@ pub fn dihedral_angles(
     shapes: &[FaceShape],
     angles: &mut [DihedralAngle],
 ) {
-    angles.par_iter_mut().enumerate().with_min_len(4096).for_each(|(edge, angle)| {
-        angle.0 = topology.face_pair(edge).map_or(0.0, |[a, b]| {
-            let [from, to] = topology.edge_vertices[edge];
-            let along = positions[to as usize].0 - positions[from as usize].0;
-            let along = if runs_along(topology, a, from, to) { along } else { -along };
-            let na = shapes[a as usize].normal;
-            let nb = match topology.edge_kind[edge] {
-                EdgeKind::Flipped => -shapes[b as usize].normal,
-                _ => shapes[b as usize].normal,
-            };
-            na.cross(nb).dot(along.normalize_or_zero()).atan2(na.dot(nb))
+    angles
+        .par_iter_mut()
+        .enumerate()
+        .with_min_len(4096)
+        .for_each(|(edge, angle)| {
+            angle.0 = topology.face_pair(edge).map_or(0.0, |[a, b]| {
+                let [from, to] = topology.edge_vertices[edge];
+                let along = positions[to as usize].0 - positions[from as usize].0;
+                let along = if runs_along(topology, a, from, to) {
+                    along
+                } else {
+                    -along
+                };
+                let na = shapes[a as usize].normal;
+                let nb = match topology.edge_kind[edge] {
+                    EdgeKind::Flipped => -shapes[b as usize].normal,
+                    _ => shapes[b as usize].normal,
+                };
+                na.cross(nb)
+                    .dot(along.normalize_or_zero())
+                    .atan2(na.dot(nb))
+            });
         });
-    });
 }
 
 fn runs_along(topology: &Topology, face: u32, from: u32, to: u32) -> bool {

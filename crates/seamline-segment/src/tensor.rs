@@ -52,7 +52,11 @@ pub(crate) fn add_scaled(sum: &mut SymmetricTensor, tensor: &SymmetricTensor, fa
 
 /// `tensor / divisor`, zero where there is nothing to divide by.
 pub(crate) fn over(tensor: &SymmetricTensor, divisor: f64) -> SymmetricTensor {
-    if divisor > 0.0 { SymmetricTensor(tensor.0.map(|t| t / divisor)) } else { SymmetricTensor::default() }
+    if divisor > 0.0 {
+        SymmetricTensor(tensor.0.map(|t| t / divisor))
+    } else {
+        SymmetricTensor::default()
+    }
 }
 
 /// What the tensors are made from.
@@ -102,7 +106,10 @@ impl TensorPair {
     }
 
     pub(crate) fn over(&self, divisor: f64) -> Self {
-        Self { full: over(&self.full, divisor), smooth: over(&self.smooth, divisor) }
+        Self {
+            full: over(&self.full, divisor),
+            smooth: over(&self.smooth, divisor),
+        }
     }
 }
 
@@ -125,11 +132,18 @@ pub fn face_tensors(bending: &Bending) -> Vec<TensorPair> {
 ///
 /// Cost: linear; for balls, by the number of faces in each ball.
 pub fn vertex_tensors(bending: &Bending, form: TensorForm, ball_radius: f64) -> Vec<TensorPair> {
-    let face_tensors = if form == TensorForm::Ring { face_tensors(bending) } else { Vec::new() };
+    let face_tensors = if form == TensorForm::Ring {
+        face_tensors(bending)
+    } else {
+        Vec::new()
+    };
     let vertices = (0..bending.positions.len()).into_par_iter();
     let area = |v: usize| -> f64 {
         let faces = bending.topology.vertex_faces.row(v);
-        faces.iter().map(|&face| bending.shapes[face as usize].area).sum()
+        faces
+            .iter()
+            .map(|&face| bending.shapes[face as usize].area)
+            .sum()
     };
     let spokes = |v: usize| {
         let mut sum = TensorPair::default();
@@ -139,10 +153,14 @@ pub fn vertex_tensors(bending: &Bending, form: TensorForm, ball_radius: f64) -> 
         sum
     };
     match form {
-        TensorForm::Spokes => vertices.with_min_len(2048).map(|v| spokes(v).over(area(v))).collect(),
-        TensorForm::Cell => {
-            vertices.with_min_len(2048).map(|v| spokes(v).over(area(v) / 1.5)).collect()
-        }
+        TensorForm::Spokes => vertices
+            .with_min_len(2048)
+            .map(|v| spokes(v).over(area(v)))
+            .collect(),
+        TensorForm::Cell => vertices
+            .with_min_len(2048)
+            .map(|v| spokes(v).over(area(v) / 1.5))
+            .collect(),
         TensorForm::Ring => vertices
             .with_min_len(2048)
             .map(|v| {
@@ -154,8 +172,9 @@ pub fn vertex_tensors(bending: &Bending, form: TensorForm, ball_radius: f64) -> 
                 sum.over(area(v))
             })
             .collect(),
-        TensorForm::Ball => {
-            vertices.with_min_len(64).map(|v| crate::ball::ball_tensor(bending, v as u32, ball_radius)).collect()
-        }
+        TensorForm::Ball => vertices
+            .with_min_len(64)
+            .map(|v| crate::ball::ball_tensor(bending, v as u32, ball_radius))
+            .collect(),
     }
 }

@@ -1,7 +1,7 @@
 //! Hints that something changed in a watched folder.
 //!
 //! What the operating system tells is taken as "look soon" and as nothing more: events get lost, come
-//! twice, come before the writing is done. What is true is found by listing the folder ([`crate::scan`]).
+//! twice, come before the writing is done. What is true is found by listing the folder ([`mod@crate::scan`]).
 
 use crossbeam_channel::{Receiver, bounded, never};
 use notify::{EventKind, RecommendedWatcher, RecursiveMode, Watcher};

@@ -11,7 +11,10 @@ use crate::settings::{pipeline_of_file, pipeline_tables};
 pub fn run(command: &ConfigCommand) -> Result<Outcome> {
     match command {
         ConfigCommand::Schema => {
-            println!("{}", serde_json::to_string_pretty(&seamline_watch::config::schema(&pipeline_tables()))?);
+            println!(
+                "{}",
+                serde_json::to_string_pretty(&seamline_watch::config::schema(&pipeline_tables()))?
+            );
         }
         ConfigCommand::Check { config } => {
             let file = ConfigFile::read(config, &pipeline_tables())?;

@@ -25,7 +25,10 @@ pub fn run(args: &InspectArgs) -> Result<Outcome> {
         let findings = examine(mesh, &topology);
         if args.json {
             let format = loaded.format.name();
-            println!("{}", json!({ "path": path, "format": format, "findings": findings }));
+            println!(
+                "{}",
+                json!({ "path": path, "format": format, "findings": findings })
+            );
         } else {
             println!("{} ({})", path.display(), loaded.format.name());
             for line in findings.lines() {

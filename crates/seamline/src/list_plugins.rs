@@ -20,7 +20,11 @@ pub fn run(args: &PluginsArgs) -> Result<Outcome> {
     }
     for stage in STAGES {
         println!("{} (--{}):", stage.stage().name(), stage.key());
-        for entry in registry.entries().iter().filter(|entry| entry.stage == stage) {
+        for entry in registry
+            .entries()
+            .iter()
+            .filter(|entry| entry.stage == stage)
+        {
             println!("  {}  {}", entry.name, entry.summary);
             for (key, about, [cad, lavoue2005]) in keys(&entry.settings) {
                 println!("      {}.{key}", entry.name);
@@ -53,11 +57,24 @@ fn keys(table: &SettingsTable) -> Vec<(String, String, [String; 2])> {
     let schema = (table.schema)();
     let defaults = [Profile::Cad, Profile::Lavoue2005].map(|profile| (table.defaults)(profile));
     let about = |key: &str| {
-        let text = schema.get("properties").and_then(|p| p.get(key)).and_then(|p| p.get("description"));
-        text.and_then(Value::as_str).unwrap_or_default().split_whitespace().collect::<Vec<_>>().join(" ")
+        let text = schema
+            .get("properties")
+            .and_then(|p| p.get(key))
+            .and_then(|p| p.get("description"));
+        text.and_then(Value::as_str)
+            .unwrap_or_default()
+            .split_whitespace()
+            .collect::<Vec<_>>()
+            .join(" ")
     };
     defaults[0]
         .keys()
-        .map(|key| (key.clone(), about(key), defaults.each_ref().map(|table| table[key].to_string())))
+        .map(|key| {
+            (
+                key.clone(),
+                about(key),
+                defaults.each_ref().map(|table| table[key].to_string()),
+            )
+        })
         .collect()
 }

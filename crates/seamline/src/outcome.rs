@@ -21,7 +21,11 @@ pub enum Outcome {
 impl Outcome {
     /// Done unless something failed.
     pub fn of_failures(failures: usize) -> Self {
-        if failures == 0 { Self::Done } else { Self::SomeFailed }
+        if failures == 0 {
+            Self::Done
+        } else {
+            Self::SomeFailed
+        }
     }
 
     /// Says the error and tells wrong use from everything else.
@@ -30,8 +34,13 @@ impl Outcome {
             Some(wrong) => say_error(&format!("{wrong}; {}", wrong.hint)),
             None => say_error(&format!("{error:#}")),
         }
-        let wrong_use = error.is::<SettingsError>() || error.is::<ConfigError>() || error.is::<WrongUse>();
-        if wrong_use { Self::WrongUse } else { Self::SomeFailed }
+        let wrong_use =
+            error.is::<SettingsError>() || error.is::<ConfigError>() || error.is::<WrongUse>();
+        if wrong_use {
+            Self::WrongUse
+        } else {
+            Self::SomeFailed
+        }
     }
 
     /// 0, 1 or 2.

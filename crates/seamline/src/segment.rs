@@ -10,7 +10,9 @@ use std::sync::Arc;
 use anyhow::{Context, Result};
 use indicatif::{ProgressBar, ProgressStyle};
 use seamline_ecs::{Segmentation, Worker};
-use seamline_watch::{JobFacts, LoadedMesh, VERSION, WriteSet, load, report, write_results};
+use seamline_watch::{
+    JobFacts, LoadedMesh, VERSION, WriteSet, load, report, weld_share, write_results,
+};
 
 use crate::args::SegmentArgs;
 use crate::outcome::{Outcome, WrongUse, say_failure};
@@ -19,14 +21,19 @@ use crate::settings::pipeline_of_args;
 /// Cuts every mesh named; one that fails is told and the others go on.
 pub fn run(args: &SegmentArgs) -> Result<Outcome> {
     let pipeline = Arc::new(pipeline_of_args(&args.pipeline)?);
-    let write = args.write.as_deref().map_or(Ok(WriteSet::ALL), str::parse)?;
+    let write = args
+        .write
+        .as_deref()
+        .map_or(Ok(WriteSet::ALL), str::parse)?;
     refuse_same_names(&args.meshes)?;
     fs::create_dir_all(&args.output)
         .with_context(|| format!("{} cannot be created", args.output.display()))?;
     if pipeline.threads() > 0 {
-        rayon::ThreadPoolBuilder::new().num_threads(pipeline.threads()).build_global()?;
+        rayon::ThreadPoolBuilder::new()
+            .num_threads(pipeline.threads())
+            .build_global()?;
     }
-    let weld_share = pipeline.settings_in_force()["mesh"]["weld_share"].as_float().unwrap_or(0.0);
+    let weld_share = weld_share(pipeline.settings_in_force());
 
     let bar = progress(args.meshes.len(), args.said.quiet);
     let mut worker = Worker::new(Arc::clone(&pipeline));
@@ -44,8 +51,18 @@ pub fn run(args: &SegmentArgs) -> Result<Outcome> {
                 read_seconds: loaded.took.as_secs_f64(),
             };
             let name = path.file_name().unwrap_or(OsStr::new("mesh"));
-            let place = write_results(&args.output, name, &loaded.mesh, &segmentation, &about, write)
-                .map_err(|e| Failure { reason: e.to_string(), hint: e.hint().to_owned() })?;
+            let place = write_results(
+                &args.output,
+                name,
+                &loaded.mesh,
+                &segmentation,
+                &about,
+                write,
+            )
+            .map_err(|e| Failure {
+                reason: e.to_string(),
+                hint: e.hint().to_owned(),
+            })?;
             bar.suspend(|| tell(args, path, &place, &loaded, &segmentation, &about));
             Ok(())
         });
@@ -64,12 +81,21 @@ struct Failure {
     hint: String,
 }
 
-fn cut(path: &Path, weld_share: f64, worker: &mut Worker) -> Result<(LoadedMesh, Segmentation), Failure> {
-    let loaded = load(path, weld_share)
-        .map_err(|e| Failure { reason: e.to_string(), hint: e.hint().to_owned() })?;
+fn cut(
+    path: &Path,
+    weld_share: f64,
+    worker: &mut Worker,
+) -> Result<(LoadedMesh, Segmentation), Failure> {
+    let loaded = load(path, weld_share).map_err(|e| Failure {
+        reason: e.to_string(),
+        hint: e.hint().to_owned(),
+    })?;
     let segmentation = worker
         .segment(Arc::clone(&loaded.mesh))
-        .map_err(|e| Failure { reason: e.to_string(), hint: e.hint })?;
+        .map_err(|e| Failure {
+            reason: e.to_string(),
+            hint: e.hint,
+        })?;
     Ok((loaded, segmentation))
 }
 
@@ -83,7 +109,11 @@ fn tell(
 ) {
     if args.json {
         // A reader that has gone away has seen enough.
-        let _ = writeln!(io::stdout(), "{}", report(&loaded.mesh, segmentation, about));
+        let _ = writeln!(
+            io::stdout(),
+            "{}",
+            report(&loaded.mesh, segmentation, about)
+        );
     }
     if args.said.quiet {
         return;
@@ -98,8 +128,17 @@ fn tell(
     if args.said.verbose {
         eprintln!("  {:<10} {:>9.3} s", "read", about.read_seconds);
         for stage in &segmentation.stages {
-            let counts: Vec<_> = stage.counts.iter().map(|(name, n)| format!("{name} {n}")).collect();
-            eprintln!("  {:<10} {:>9.3} s  {}", stage.stage.name(), stage.seconds, counts.join(", "));
+            let counts: Vec<_> = stage
+                .counts
+                .iter()
+                .map(|(name, n)| format!("{name} {n}"))
+                .collect();
+            eprintln!(
+                "  {:<10} {:>9.3} s  {}",
+                stage.stage.name(),
+                stage.seconds,
+                counts.join(", ")
+            );
         }
     }
 }
@@ -108,7 +147,9 @@ fn tell(
 fn refuse_same_names(meshes: &[PathBuf]) -> Result<(), WrongUse> {
     let mut first: BTreeMap<&OsStr, &Path> = BTreeMap::new();
     for path in meshes {
-        let Some(name) = path.file_name() else { continue };
+        let Some(name) = path.file_name() else {
+            continue;
+        };
         if let Some(before) = first.insert(name, path) {
             return Err(WrongUse(format!(
                 "{} and {} would both write {}.seamline; cut them into different folders with -o",
@@ -127,5 +168,6 @@ fn progress(meshes: usize, quiet: bool) -> ProgressBar {
         return ProgressBar::hidden();
     }
     let style = ProgressStyle::with_template("{bar:30} {pos}/{len} {wide_msg}");
-    ProgressBar::new(meshes as u64).with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()))
+    ProgressBar::new(meshes as u64)
+        .with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()))
 }

@@ -47,9 +47,11 @@ pub fn pipeline_of_args(args: &PipelineArgs) -> Result<Pipeline> {
 
 fn lay_args_over(given: &mut Table, args: &PipelineArgs) -> Result<()> {
     for setting in &args.set {
-        let (key, value) = setting
-            .split_once('=')
-            .ok_or_else(|| WrongUse(format!("--set {setting}: wants KEY=VALUE, as merge.threshold=50")))?;
+        let (key, value) = setting.split_once('=').ok_or_else(|| {
+            WrongUse(format!(
+                "--set {setting}: wants KEY=VALUE, as merge.threshold=50"
+            ))
+        })?;
         set_dotted(given, key.trim(), value.trim())?;
     }
     let named = [
@@ -74,13 +76,17 @@ fn lay_environment_over(
     given: &mut Table,
     variables: impl Iterator<Item = (String, String)>,
 ) -> Result<(), SettingsError> {
-    let mut ours: Vec<_> = variables.filter(|(name, _)| name.starts_with(ENVIRONMENT_PREFIX)).collect();
+    let mut ours: Vec<_> = variables
+        .filter(|(name, _)| name.starts_with(ENVIRONMENT_PREFIX))
+        .collect();
     ours.sort();
     for (name, value) in ours {
         let key = name[ENVIRONMENT_PREFIX.len()..].to_lowercase();
         let (table, key) = key.split_once("__").unwrap_or(("pipeline", &key));
         let tables = pipeline_tables();
-        let known = tables.iter().find(|known| known.name.replace('-', "_") == table);
+        let known = tables
+            .iter()
+            .find(|known| known.name.replace('-', "_") == table);
         let table = known.map_or(table, |known| known.name);
         set_dotted(given, &format!("{table}.{key}"), &value)?;
     }
@@ -99,16 +105,23 @@ mod tests {
             ("SEAMLINE_CONTOUR_TRACKING__CORRECT_BELOW_DEG", "5"),
             ("PATH", "/bin"),
         ];
-        let variables = variables.into_iter().map(|(name, value)| (name.to_owned(), value.to_owned()));
+        let variables = variables
+            .into_iter()
+            .map(|(name, value)| (name.to_owned(), value.to_owned()));
         lay_environment_over(&mut given, variables).unwrap();
         assert_eq!(given["pipeline"]["profile"].as_str(), Some("lavoue2005"));
-        assert_eq!(given["contour-tracking"]["correct_below_deg"].as_integer(), Some(5));
+        assert_eq!(
+            given["contour-tracking"]["correct_below_deg"].as_integer(),
+            Some(5)
+        );
         assert_eq!(given.len(), 2);
     }
 
     #[test]
     fn the_command_line_beats_what_is_given_before() {
-        let mut given = "[pipeline]\nprofile = 'cad'\n[merge]\nthreshold = 1.0".parse().unwrap();
+        let mut given = "[pipeline]\nprofile = 'cad'\n[merge]\nthreshold = 1.0"
+            .parse()
+            .unwrap();
         let args = PipelineArgs {
             profile: Some("lavoue2005".to_owned()),
             set: vec!["merge.threshold=50".to_owned()],

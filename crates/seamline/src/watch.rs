@@ -25,13 +25,20 @@ pub fn run(args: &WatchArgs) -> Result<Outcome> {
     })
     .context("signals cannot be handled")?;
 
-    let options = RunOptions { once: args.once, dry_run: args.dry_run };
+    let options = RunOptions {
+        once: args.once,
+        dry_run: args.dry_run,
+    };
     let summary = seamline_watch::run(config, pipeline, options, stopped)
         .map_err(|error| anyhow::anyhow!("{error}; {}", error.hint()))?;
     for path in &summary.listed {
         println!("{}", path.display());
     }
-    Ok(if args.once { Outcome::of_failures(summary.failed) } else { Outcome::Done })
+    Ok(if args.once {
+        Outcome::of_failures(summary.failed)
+    } else {
+        Outcome::Done
+    })
 }
 
 fn log_to_standard_error(said: SaidArgs) {
@@ -40,5 +47,9 @@ fn log_to_standard_error(said: SaidArgs) {
         SaidArgs { verbose: true, .. } => LevelFilter::DEBUG,
         _ => LevelFilter::INFO,
     };
-    tracing_subscriber::fmt().with_max_level(level).with_target(false).with_writer(io::stderr).init();
+    tracing_subscriber::fmt()
+        .with_max_level(level)
+        .with_target(false)
+        .with_writer(io::stderr)
+        .init();
 }

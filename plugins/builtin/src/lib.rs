@@ -6,5 +6,7 @@ use seamline_kmeans::KMeans;
 
 /// All plugins Seamline comes with. To add one: a dependency and a line.
 pub fn registry() -> Registry {
-    Registry::default().with::<KMeans>().with::<ContourTracking>()
+    Registry::default()
+        .with::<KMeans>()
+        .with::<ContourTracking>()
 }

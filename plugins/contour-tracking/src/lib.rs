@@ -55,7 +55,11 @@ impl StepSettings for ContourTrackingSettings {
             "correct_below_deg",
             "a score from 0 to 90 degrees",
         )?;
-        OutOfRange::unless(self.turn_weight >= 0.0, "turn_weight", "a weight of 0 or more")
+        OutOfRange::unless(
+            self.turn_weight >= 0.0,
+            "turn_weight",
+            "a weight of 0 or more",
+        )
     }
 }
 
@@ -75,10 +79,19 @@ impl StagePlugin for ContourTracking {
                             mut counts: ResMut<Counts>| {
             let states = &mut states[..];
             mark(&topology.0, &scores, &sharp, &labels, &settings, states);
-            let tracked = track(&topology.0, &positions, &scores, settings.turn_weight, states);
+            let tracked = track(
+                &topology.0,
+                &positions,
+                &scores,
+                settings.turn_weight,
+                states,
+            );
             let patch_count = patches(&topology.0, states, &mut labels);
 
-            let marked = states.iter().filter(|&&state| state == ContourState::Correct).count();
+            let marked = states
+                .iter()
+                .filter(|&&state| state == ContourState::Correct)
+                .count();
             counts.note(Stage::Rectify, "correct_edges", marked);
             counts.note(Stage::Rectify, "open_ends", tracked.open_ends);
             counts.note(Stage::Rectify, "tracked_edges", tracked.steps);

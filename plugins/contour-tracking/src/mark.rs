@@ -16,10 +16,14 @@ pub fn mark(
     states: &mut [ContourState],
 ) {
     let is_boundary = |edge: usize| {
-        topology.face_pair(edge).is_some_and(|[a, b]| labels[a as usize] != labels[b as usize])
+        topology
+            .face_pair(edge)
+            .is_some_and(|[a, b]| labels[a as usize] != labels[b as usize])
     };
-    let boundary: Vec<u32> =
-        (0..states.len()).filter(|&edge| is_boundary(edge)).map(|edge| edge as u32).collect();
+    let boundary: Vec<u32> = (0..states.len())
+        .filter(|&edge| is_boundary(edge))
+        .map(|edge| edge as u32)
+        .collect();
     states.fill(ContourState::Off);
     for &edge in &boundary {
         let edge = edge as usize;

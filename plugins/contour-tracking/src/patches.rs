@@ -5,7 +5,11 @@ use seamline_mesh::{Sets, Topology};
 
 /// Labels faces that hang together without crossing a contour alike, numbered by lowest face. Contour edges
 /// with the same patch on both sides are taken off their contour. Gives the number of patches.
-pub fn patches(topology: &Topology, states: &mut [ContourState], labels: &mut [FaceLabel]) -> usize {
+pub fn patches(
+    topology: &Topology,
+    states: &mut [ContourState],
+    labels: &mut [FaceLabel],
+) -> usize {
     let mut sets = Sets::new(labels.len());
     for (edge, state) in states.iter().enumerate() {
         if *state == ContourState::Off

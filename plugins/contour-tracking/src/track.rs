@@ -26,7 +26,10 @@ struct PotentialEdge {
 impl Ord for PotentialEdge {
     fn cmp(&self, other: &Self) -> Ordering {
         let order = self.weight.total_cmp(&other.weight);
-        order.then(self.edge.cmp(&other.edge)).then(self.end.cmp(&other.end)).reverse()
+        order
+            .then(self.edge.cmp(&other.edge))
+            .then(self.end.cmp(&other.end))
+            .reverse()
     }
 }
 
@@ -58,8 +61,9 @@ pub fn track(
     states: &mut [ContourState],
 ) -> Tracked {
     let mut contours = Contours::of(topology, positions, scores, turn_weight, states);
-    let open: Vec<u32> =
-        (0..topology.vertex_edges.row_count() as u32).filter(|&v| contours.is_open(v)).collect();
+    let open: Vec<u32> = (0..topology.vertex_edges.row_count() as u32)
+        .filter(|&v| contours.is_open(v))
+        .collect();
     for &end in &open {
         contours.push_edges_at(end);
     }
@@ -70,7 +74,10 @@ pub fn track(
             steps += 1;
         }
     }
-    Tracked { open_ends: open.len(), steps }
+    Tracked {
+        open_ends: open.len(),
+        steps,
+    }
 }
 
 struct Contours<'a> {
@@ -94,7 +101,15 @@ impl<'a> Contours<'a> {
     ) -> Self {
         let degree = vec![0; topology.vertex_edges.row_count()];
         let heap = BinaryHeap::new();
-        let mut contours = Self { topology, positions, scores, turn_weight, states, degree, heap };
+        let mut contours = Self {
+            topology,
+            positions,
+            scores,
+            turn_weight,
+            states,
+            degree,
+            heap,
+        };
         for edge in 0..contours.states.len() as u32 {
             if contours.on_contour(edge) {
                 for v in topology.edge_vertices[edge as usize] {
@@ -117,7 +132,9 @@ impl<'a> Contours<'a> {
             return None;
         }
         let around = self.topology.vertex_edges.row(vertex as usize).iter();
-        around.copied().find(|&edge| self.states[edge as usize] != ContourState::Off)
+        around
+            .copied()
+            .find(|&edge| self.states[edge as usize] != ContourState::Off)
     }
 
     fn is_open(&self, vertex: u32) -> bool {
@@ -125,7 +142,9 @@ impl<'a> Contours<'a> {
     }
 
     fn push_edges_at(&mut self, end: u32) {
-        let Some(arriving) = self.arriving(end) else { return };
+        let Some(arriving) = self.arriving(end) else {
+            return;
+        };
         let from = self.topology.far_end(arriving, end);
         let heading = self.at(end) - self.at(from);
         for &edge in self.topology.vertex_edges.row(end as usize) {
@@ -133,7 +152,11 @@ impl<'a> Contours<'a> {
                 continue;
             }
             let leaving = self.at(self.topology.far_end(edge, end)) - self.at(end);
-            let turn = heading.cross(leaving).length().atan2(heading.dot(leaving)).to_degrees();
+            let turn = heading
+                .cross(leaving)
+                .length()
+                .atan2(heading.dot(leaving))
+                .to_degrees();
             let weight = self.scores[edge as usize].0 + self.turn_weight * turn;
             self.heap.push(PotentialEdge { weight, edge, end });
         }

@@ -47,7 +47,12 @@ pub fn cluster(features: &[SampleFeature], seeds: Vec<[f64; 2]>, max_rounds: usi
             break;
         }
     }
-    Clustering { of_sample, centres, sizes, rounds }
+    Clustering {
+        of_sample,
+        centres,
+        sizes,
+        rounds,
+    }
 }
 
 struct Sums {
@@ -55,8 +60,15 @@ struct Sums {
     changed: bool,
 }
 
-fn assign(features: &[SampleFeature], centres: &[[f64; 2]], of_sample: &mut [SampleCluster]) -> Sums {
-    let nothing = || Sums { members: vec![([0.0; 2], 0); centres.len()], changed: false };
+fn assign(
+    features: &[SampleFeature],
+    centres: &[[f64; 2]],
+    of_sample: &mut [SampleCluster],
+) -> Sums {
+    let nothing = || Sums {
+        members: vec![([0.0; 2], 0); centres.len()],
+        changed: false,
+    };
     let partial: Vec<Sums> = of_sample
         .par_chunks_mut(CHUNK)
         .zip(features.par_chunks(CHUNK))

@@ -45,27 +45,42 @@ impl StepSettings for KMeansSettings {
 
     fn defaults(profile: Profile) -> Self {
         match profile {
-            Profile::Cad => {
-                Self { clusters: 12, min_cluster_share: 0.0, merge_share: 0.04, max_rounds: 200 }
-            }
-            Profile::Lavoue2005 => {
-                Self { clusters: 10, min_cluster_share: 0.002, merge_share: 0.02, max_rounds: 200 }
-            }
+            Profile::Cad => Self {
+                clusters: 12,
+                min_cluster_share: 0.0,
+                merge_share: 0.04,
+                max_rounds: 200,
+            },
+            Profile::Lavoue2005 => Self {
+                clusters: 10,
+                min_cluster_share: 0.002,
+                merge_share: 0.02,
+                max_rounds: 200,
+            },
         }
     }
 
     fn check(&self) -> Result<(), OutOfRange> {
         OutOfRange::unless(self.clusters >= 1, "clusters", "1 cluster or more")?;
         let share = |value: f64| (0.0..=1.0).contains(&value);
-        OutOfRange::unless(share(self.min_cluster_share), "min_cluster_share", "a share from 0 to 1")?;
-        OutOfRange::unless(share(self.merge_share), "merge_share", "a share from 0 to 1")
+        OutOfRange::unless(
+            share(self.min_cluster_share),
+            "min_cluster_share",
+            "a share from 0 to 1",
+        )?;
+        OutOfRange::unless(
+            share(self.merge_share),
+            "merge_share",
+            "a share from 0 to 1",
+        )
     }
 }
 
 impl StagePlugin for KMeans {
     type Settings = KMeansSettings;
     const STAGE: SwappableStage = SwappableStage::Classify;
-    const SUMMARY: &'static str = "k-means on principal curvatures with regularisation (the paper's)";
+    const SUMMARY: &'static str =
+        "k-means on principal curvatures with regularisation (the paper's)";
 
     fn systems(settings: KMeansSettings) -> StageSystems {
         let classify = move |features: Column<SampleFeature>,
@@ -100,9 +115,18 @@ pub fn classify(features: &[SampleFeature], settings: &KMeansSettings) -> Classi
     let clustering = cluster(features, seeds, settings.max_rounds as usize);
     let before = clustering.sizes.iter().filter(|&&size| size > 0).count();
     let rounds = clustering.rounds;
-    let (of_sample, after) =
-        regularise(features, clustering, settings.min_cluster_share, settings.merge_share);
-    Classified { of_sample, before, after, rounds }
+    let (of_sample, after) = regularise(
+        features,
+        clustering,
+        settings.min_cluster_share,
+        settings.merge_share,
+    );
+    Classified {
+        of_sample,
+        before,
+        after,
+        rounds,
+    }
 }
 
 #[cfg(test)]
@@ -115,13 +139,23 @@ mod tests {
     }
 
     fn settings(clusters: u32) -> KMeansSettings {
-        KMeansSettings { clusters, min_cluster_share: 0.0, merge_share: 0.0, max_rounds: 200 }
+        KMeansSettings {
+            clusters,
+            min_cluster_share: 0.0,
+            merge_share: 0.0,
+            max_rounds: 200,
+        }
     }
 
     #[test]
     fn three_heaps_apart_are_three_clusters() {
         let points: Vec<_> = (0..30)
-            .map(|i| [f64::from(i % 3) * 10.0 + f64::from(i) * 1e-3, f64::from(i % 3)])
+            .map(|i| {
+                [
+                    f64::from(i % 3) * 10.0 + f64::from(i) * 1e-3,
+                    f64::from(i % 3),
+                ]
+            })
             .collect();
         let found = classify(&features(&points), &settings(3));
         assert_eq!(found.after, 3);
@@ -146,7 +180,10 @@ mod tests {
         let mut points = vec![[0.0, 0.0]; 999];
         points.extend(vec![[1.0, 1.0]; 999]);
         points.push([1.5, 1.5]);
-        let strict = KMeansSettings { min_cluster_share: 0.002, ..settings(3) };
+        let strict = KMeansSettings {
+            min_cluster_share: 0.002,
+            ..settings(3)
+        };
         let found = classify(&features(&points), &strict);
         assert_eq!((found.before, found.after), (3, 2));
         assert_eq!(found.of_sample[1998], found.of_sample[1000]);

@@ -17,8 +17,9 @@ pub fn regularise(
 ) -> (Vec<SampleCluster>, usize) {
     let mut clusters = Clusters::of(&clustering);
     let small_below = min_share * features.len() as f64;
-    while let Some((kept, gone)) =
-        clusters.small_pair(small_below).or_else(|| clusters.alike_pair(merge_share))
+    while let Some((kept, gone)) = clusters
+        .small_pair(small_below)
+        .or_else(|| clusters.alike_pair(merge_share))
     {
         clusters.merge(kept, gone);
     }
@@ -32,7 +33,10 @@ pub fn regularise(
         }
     }
     let number = |c: SampleCluster| SampleCluster(numbers[clusters.root(c.0 as usize)]);
-    (clustering.of_sample.into_iter().map(number).collect(), count as usize)
+    (
+        clustering.of_sample.into_iter().map(number).collect(),
+        count as usize,
+    )
 }
 
 struct Clusters {
@@ -76,7 +80,8 @@ impl Clusters {
             return None;
         }
         let others = self.standing().filter(|&c| c != small);
-        let nearest = others.min_by(|&a, &b| self.apart(a, small).total_cmp(&self.apart(b, small)))?;
+        let nearest =
+            others.min_by(|&a, &b| self.apart(a, small).total_cmp(&self.apart(b, small)))?;
         Some((nearest, small))
     }
 
@@ -87,7 +92,9 @@ impl Clusters {
             values.clone().fold(f64::MIN, f64::max) - values.fold(f64::MAX, f64::min)
         };
         let limit = merge_share * bounds(0).hypot(bounds(1));
-        let pairs = self.standing().flat_map(|a| self.standing().filter(move |&b| b > a).map(move |b| (a, b)));
+        let pairs = self
+            .standing()
+            .flat_map(|a| self.standing().filter(move |&b| b > a).map(move |b| (a, b)));
         let nearest = pairs.min_by(|x, y| self.apart(x.0, x.1).total_cmp(&self.apart(y.0, y.1)))?;
         (self.apart(nearest.0, nearest.1) < limit).then_some(nearest)
     }

@@ -30,7 +30,16 @@ pub fn seeds(features: &[SampleFeature], wanted: usize) -> Vec<[f64; 2]> {
                 }
                 best
             })
-            .reduce(|| (-1.0, usize::MAX), |a, b| if b.0 > a.0 || (b.0 == a.0 && b.1 < a.1) { b } else { a });
+            .reduce(
+                || (-1.0, usize::MAX),
+                |a, b| {
+                    if b.0 > a.0 || (b.0 == a.0 && b.1 < a.1) {
+                        b
+                    } else {
+                        a
+                    }
+                },
+            );
         if farthest.0 <= 0.0 {
             break;
         }

@@ -143,10 +143,12 @@ pub fn profile(mut pieces: Vec<ProfilePiece>, closed: bool) -> Vec<ProfilePiece>
         let end = pieces[i - 1].0[pieces[i - 1].0.len() - 1];
         pieces[i].0[0] = end;
     }
-    if closed && let Some(start) = pieces.first().map(|first| first.0[0]) {
-        if let Some(end) = pieces.last_mut().and_then(|last| last.0.last_mut()) {
-            *end = start;
-        }
+    let start = pieces.first().map(|first| first.0[0]);
+    if closed
+        && let Some(start) = start
+        && let Some(end) = pieces.last_mut().and_then(|last| last.0.last_mut())
+    {
+        *end = start;
     }
     pieces
 }
@@ -233,7 +235,7 @@ fn push_quad(shape: &mut Shape, patch: u32, quad: [DVec3; 4], turn: usize, diago
     match diagonals {
         Diagonals::None => shape.push(patch, quad),
         Diagonals::Uniform => shape.push_cut_quad(patch, quad, true),
-        Diagonals::Alternating => shape.push_cut_quad(patch, quad, turn % 2 == 0),
+        Diagonals::Alternating => shape.push_cut_quad(patch, quad, turn.is_multiple_of(2)),
     }
 }
 

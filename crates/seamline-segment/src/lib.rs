@@ -31,12 +31,12 @@ pub use boundaries::chains;
 pub use curvature::{Carrier, CurvatureSettings};
 pub use eigen::{PrincipalFrame, free_principal_frame, tangent_principal_frame};
 pub use face_shape::face_shapes;
-pub use facets::{FacetSettings, Facets};
+pub use facets::{FacetSettings, Facets, find_facets};
 pub use import::{MeshSettings, ScaleBy};
 pub use merge::{MergeSettings, RegionDistance};
 pub use score::ScoreSettings;
 pub use sharp::{SharpSettings, dihedral_angles};
-pub use tensor::{TensorForm, edge_tensor, face_tensors, vertex_tensors};
+pub use tensor::{Bending, TensorForm, TensorPair, edge_tensor, face_tensors, vertex_tensors};
 
 /// The built-in steps and their tables of settings.
 pub fn builtin_steps() -> BuiltinSteps {

@@ -193,3 +193,100 @@ impl RegionGraph {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use glam::{DVec3, dvec3};
+
+    /// A grid of unit squares in the plane, `labels` row by row.
+    fn grid(columns: u32, labels: &[u32]) -> RegionGraph {
+        let rows = labels.len() as u32 / columns;
+        let at = |x: u32, y: u32| y * (columns + 1) + x;
+        let mut triangles = Vec::new();
+        let mut of_face = Vec::new();
+        for (square, &label) in labels.iter().enumerate() {
+            let (x, y) = (square as u32 % columns, square as u32 / columns);
+            triangles.push([at(x, y), at(x + 1, y), at(x + 1, y + 1)]);
+            triangles.push([at(x, y), at(x + 1, y + 1), at(x, y + 1)]);
+            of_face.extend([FaceLabel(label); 2]);
+        }
+        let corners = (0..=rows).flat_map(|y| (0..=columns).map(move |x| (x, y)));
+        let positions: Vec<_> = corners
+            .map(|(x, y)| Position(dvec3(f64::from(x), f64::from(y), 0.0)))
+            .collect();
+        let topology = Topology::build(positions.len(), triangles);
+        let shapes = vec![
+            FaceShape {
+                normal: DVec3::Z,
+                area: 0.5
+            };
+            of_face.len()
+        ];
+        let sharp = vec![SharpEdge(false); topology.edge_vertices.len()];
+        let count = labels.iter().max().map_or(0, |&last| last as usize + 1);
+        let curvatures = vec![VertexCurvature::default(); positions.len()];
+        let regions = vec![Region::default(); count];
+        RegionGraph::build(
+            &topology,
+            &positions,
+            &shapes,
+            &sharp,
+            &of_face,
+            regions,
+            Some(&curvatures),
+        )
+    }
+
+    /// `N` of the paper.
+    fn nesting(graph: &RegionGraph, a: usize, b: u32) -> f64 {
+        let link = &graph.links[graph.neighbours[a][&b] as usize];
+        graph.regions[a]
+            .perimeter
+            .min(graph.regions[b as usize].perimeter)
+            / link.length
+    }
+
+    #[test]
+    fn two_unit_squares_that_share_a_side_nest_by_4() {
+        let graph = grid(2, &[0, 1]);
+        assert_eq!(graph.regions[0].perimeter, 4.0);
+        assert_eq!(nesting(&graph, 0, 1), 4.0);
+    }
+
+    #[test]
+    fn a_region_wholly_inside_another_nests_by_1() {
+        let graph = grid(3, &[0, 0, 0, 0, 1, 0, 0, 0, 0]);
+        assert_eq!(graph.regions[0].perimeter, 16.0);
+        assert_eq!(nesting(&graph, 0, 1), 1.0);
+    }
+
+    #[test]
+    fn merging_adds_areas_and_takes_the_common_border_off_the_perimeters() {
+        let mut graph = grid(3, &[0, 1, 2, 0, 1, 2]);
+        graph.merge(0, 1, None);
+        assert_eq!(
+            (graph.regions[0].area, graph.regions[0].perimeter),
+            (4.0, 8.0)
+        );
+        assert_eq!(graph.neighbours[0].keys().copied().collect::<Vec<_>>(), [2]);
+        assert_eq!(nesting(&graph, 0, 2), 3.0);
+    }
+
+    #[test]
+    fn only_vertices_with_two_common_edges_are_on_the_real_border() {
+        let mut border = BorderCurvature::default();
+        for (vertex, curvature) in [(0, 1.0), (1, 5.0), (1, 5.0), (2, 3.0)] {
+            border.add(vertex, 1, [0.0, curvature]);
+        }
+        assert_eq!(border.mean(), [0.0, 5.0]);
+    }
+
+    #[test]
+    fn a_border_of_one_edge_has_the_mean_of_its_ends() {
+        let mut border = BorderCurvature::default();
+        border.add(0, 1, [0.0, 1.0]);
+        border.add(1, 1, [0.0, 3.0]);
+        assert_eq!(border.mean(), [0.0, 2.0]);
+    }
+}

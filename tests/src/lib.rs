@@ -1,6 +1,9 @@
 //! What the end-to-end tests have in common: the built binary, the library's pipeline, and the bench of CAD
 //! meshes where it is present.
 
+pub mod samples;
+
+use std::collections::BTreeSet;
 use std::path::PathBuf;
 use std::process::Command;
 use std::sync::{Arc, OnceLock};
@@ -11,7 +14,8 @@ use seamline_ecs::{Pipeline, Segmentation, Worker};
 use seamline_mesh::{Mesh, PolygonMesh, weld};
 use seamline_segment::builtin_steps;
 
-/// The program, ready to be given arguments. Built once a test binary, in the profile of the tests.
+/// The program, ready to be given arguments. Built once a test binary, in the profile of the tests. It does
+/// not see settings of the environment the tests run in.
 ///
 /// # Panics
 ///
@@ -26,7 +30,57 @@ pub fn seamline() -> Command {
             .current_release();
         build.run().expect("the program builds")
     });
-    program.command()
+    let mut command = program.command();
+    let ours = |name: &std::ffi::OsString| name.to_string_lossy().starts_with("SEAMLINE_");
+    for (name, _) in std::env::vars_os().filter(|(name, _)| ours(name)) {
+        command.env_remove(name);
+    }
+    command
+}
+
+/// How a run of the program ended, and what it said.
+#[derive(Clone, Debug)]
+pub struct Ran {
+    /// Exit status; `None` if a signal ended it.
+    pub code: Option<i32>,
+    /// Standard output.
+    pub out: String,
+    /// Standard error.
+    pub err: String,
+}
+
+impl Ran {
+    /// The same run, if it ended with `code`.
+    ///
+    /// # Panics
+    ///
+    /// If it ended otherwise, with all it said.
+    #[track_caller]
+    pub fn ended(self, code: i32) -> Self {
+        assert_eq!(self.code, Some(code), "{self:#?}");
+        self
+    }
+}
+
+/// Runs a command to its end.
+///
+/// # Panics
+///
+/// If it cannot be started.
+pub fn run(command: &mut Command) -> Ran {
+    let output = command.output().expect("the command starts");
+    Ran {
+        code: output.status.code(),
+        out: String::from_utf8_lossy(&output.stdout).into_owned(),
+        err: String::from_utf8_lossy(&output.stderr).into_owned(),
+    }
+}
+
+/// Do two labellings cut the faces alike, whatever the names?
+pub fn same_partition(a: &[u32], b: &[u32]) -> bool {
+    let pairs: BTreeSet<_> = a.iter().zip(b).collect();
+    let distinct = |labels: &[u32]| labels.iter().collect::<BTreeSet<_>>().len();
+    a.len() == b.len() && pairs.len() == distinct(a) && pairs.len() == distinct(b)
 }
 
 /// A file or folder of the bench, which lies beside the project's folder. `None`, and a word on standard

@@ -42,9 +42,9 @@ impl StepSettings for FacetSettings {
     fn defaults(_: Profile) -> Self {
         Self {
             flat_deg: 0.1,
-            median_rounds: 2,
+            median_rounds: 3,
             similar_area_share: 0.5,
-            barely_curved: 0.5,
+            barely_curved: 0.4,
         }
     }
 

@@ -71,7 +71,7 @@ fn plus(a: [f64; 2], b: [f64; 2]) -> [f64; 2] {
 /// Regions and their links. A link is named by its two regions, the lower first.
 #[derive(Clone, Debug, Default)]
 pub struct RegionGraph {
-    /// One a region; those merged into another one keep their last state.
+    /// One a region; those merged into another one are empty.
     pub regions: Vec<Region>,
     /// The links of each region: neighbour, and index into `links`.
     pub neighbours: Vec<BTreeMap<u32, u32>>,
@@ -153,27 +153,22 @@ impl RegionGraph {
         graph
     }
 
-    /// Merges region `gone` into region `kept`, its neighbour: curvatures averaged by area, areas added,
-    /// perimeters less the common border, links united (paper 4.4.2).
-    pub fn merge(&mut self, kept: u32, gone: u32, border: Option<&[VertexCurvature]>) {
+    /// Merges two neighbouring regions: curvatures averaged by area, areas added, perimeters less the common
+    /// border, links united (paper 4.4.2). The region with more links stays and takes over those of the
+    /// other, which is left empty.
+    pub fn merge(&mut self, a: u32, b: u32, border: Option<&[VertexCurvature]>) -> Merged {
+        let links_of = |region: u32| self.neighbours[region as usize].len();
+        let [kept, gone] = if (links_of(b), a) > (links_of(a), b) { [b, a] } else { [a, b] };
         let common = self.neighbours[kept as usize].remove(&gone);
         self.neighbours[gone as usize].remove(&kept);
         let common_length = common.map_or(0.0, |link| self.links[link as usize].length);
 
-        let (a, b) = (self.regions[kept as usize], self.regions[gone as usize]);
-        let area = a.area + b.area;
-        let blend = |k: usize| (a.curvature[k] * a.area + b.curvature[k] * b.area) / area;
-        self.regions[kept as usize] = Region {
-            curvature: if area > 0.0 {
-                [blend(0), blend(1)]
-            } else {
-                a.curvature
-            },
-            area,
-            perimeter: (a.perimeter + b.perimeter - 2.0 * common_length).max(0.0),
-        };
-
+        let pair = [self.regions[kept as usize], self.regions[gone as usize]];
+        self.regions[kept as usize] = united(pair, common_length);
+        self.regions[gone as usize] = Region::default();
+        let mut relinked = Vec::new();
         for (other, link) in std::mem::take(&mut self.neighbours[gone as usize]) {
+            relinked.push(other);
             self.neighbours[other as usize].remove(&gone);
             match self.neighbours[kept as usize].get(&other) {
                 Some(&into) => {
@@ -191,6 +186,28 @@ impl RegionGraph {
                 }
             }
         }
+        Merged { kept, gone, relinked }
+    }
+}
+
+/// What became of two regions.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Merged {
+    /// The one that stays.
+    pub kept: u32,
+    /// The one that is gone.
+    pub gone: u32,
+    /// The regions whose link to the one that stays is new or has grown.
+    pub relinked: Vec<u32>,
+}
+
+fn united([a, b]: [Region; 2], common_length: f64) -> Region {
+    let area = a.area + b.area;
+    let blend = |k: usize| (a.curvature[k] * a.area + b.curvature[k] * b.area) / area;
+    Region {
+        curvature: if area > 0.0 { [blend(0), blend(1)] } else { a.curvature },
+        area,
+        perimeter: (a.perimeter + b.perimeter - 2.0 * common_length).max(0.0),
     }
 }
 

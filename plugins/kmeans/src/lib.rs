@@ -46,7 +46,7 @@ impl StepSettings for KMeansSettings {
     fn defaults(profile: Profile) -> Self {
         match profile {
             Profile::Cad => Self {
-                clusters: 12,
+                clusters: 16,
                 min_cluster_share: 0.0,
                 merge_share: 0.04,
                 max_rounds: 200,

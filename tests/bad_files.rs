@@ -50,7 +50,9 @@ fn check_refused(ran: &Ran, name: &str, output: &Path) -> Result<(), String> {
     let [line] = ran.err.lines().collect::<Vec<_>>()[..] else {
         return Err("one line on standard error is right".to_owned());
     };
-    let reason = line.split_once(&format!("{name}: ")).map(|(_, reason)| reason);
+    let reason = line
+        .split_once(&format!("{name}: "))
+        .map(|(_, reason)| reason);
     if reason.is_none_or(|reason| reason.len() < 10) {
         return Err("the line names the file and the reason".to_owned());
     }
@@ -129,7 +131,10 @@ fn one_bad_file_of_every_kind_leaves_the_good_ones_done() {
     .ended(1);
     for [name, _, expected] in &rows {
         let done = output.path().join(format!("{name}.seamline")).exists();
-        let told = ran.err.lines().any(|line| line.contains(&format!("{name}: ")));
+        let told = ran
+            .err
+            .lines()
+            .any(|line| line.contains(&format!("{name}: ")));
         assert_ne!(done, told, "{name}: done or told, and not both");
         match expected.as_str() {
             "process" => assert!(done, "{name}"),

@@ -18,7 +18,10 @@ fn meshes_below(folder: &Path, from: &Path, found: &mut BTreeSet<String>) {
         let path = entry.expect("its entries can be read").path();
         if path.is_dir() {
             meshes_below(&path, from, found);
-        } else if !["rs", "md"].iter().any(|e| path.extension() == Some(e.as_ref())) {
+        } else if !["rs", "md"]
+            .iter()
+            .any(|e| path.extension() == Some(e.as_ref()))
+        {
             let relative = path.strip_prefix(from).expect("it lies below");
             found.insert(relative.display().to_string());
         }
@@ -29,7 +32,10 @@ fn meshes_below(folder: &Path, from: &Path, found: &mut BTreeSet<String>) {
 fn committed_samples_are_byte_for_byte_what_the_program_makes() {
     let mut committed = BTreeSet::new();
     meshes_below(&data(), &data(), &mut committed);
-    let made: BTreeSet<_> = samples().iter().map(|sample| sample.path.to_owned()).collect();
+    let made: BTreeSet<_> = samples()
+        .iter()
+        .map(|sample| sample.path.to_owned())
+        .collect();
     assert_eq!(committed, made);
     for sample in samples() {
         let committed = fs::read(data().join(sample.path)).expect(sample.path);

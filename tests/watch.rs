@@ -2,7 +2,7 @@
 
 use std::fs::{self, File};
 use std::io::Write;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::process::{Child, Command, Output, Stdio};
 use std::thread::sleep;
 use std::time::{Duration, Instant};
@@ -409,43 +409,4 @@ fn output_inside_watch_is_refused() {
         text.contains("watch.toml:5: output.dir") && text.contains("inside the watched folder"),
         "{text}"
     );
-}
-
-#[test]
-fn every_configuration_that_comes_with_the_program_is_right() {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../watch-config");
-    let entries = fs::read_dir(folder)
-        .unwrap()
-        .map(|entry| entry.unwrap().path());
-    let configs: Vec<_> = entries
-        .filter(|path| path.extension().is_some_and(|e| e == "toml"))
-        .collect();
-    assert!(configs.iter().any(|path| path.ends_with("demo.toml")));
-    for config in configs {
-        let output = seamline()
-            .args(["config", "check"])
-            .arg(&config)
-            .output()
-            .unwrap();
-        assert_eq!(
-            output.status.code(),
-            Some(0),
-            "{}: {}",
-            config.display(),
-            said(&output)
-        );
-    }
-}
-
-#[test]
-fn the_demo_finds_sample_parts_to_cut() {
-    let config = Path::new(env!("CARGO_MANIFEST_DIR")).join("../watch-config/demo.toml");
-    let output = seamline()
-        .arg("watch")
-        .arg(config)
-        .arg("--dry-run")
-        .output()
-        .unwrap();
-    assert_eq!(output.status.code(), Some(0), "{}", said(&output));
-    assert!(String::from_utf8_lossy(&output.stdout).lines().count() > 0);
 }

@@ -13,7 +13,11 @@ const SETTINGS: [&[&str]; 4] = [
     &["pipeline.profile=cad"],
     &["pipeline.profile=cad", "pipeline.rectifier=none"],
     &["pipeline.profile=lavoue2005"],
-    &["pipeline.profile=lavoue2005", "curvature.tensor=ball", "curvature.ball_radius=0.1"],
+    &[
+        "pipeline.profile=lavoue2005",
+        "curvature.tensor=ball",
+        "curvature.ball_radius=0.1",
+    ],
 ];
 
 /// What may happen to a face.
@@ -46,7 +50,9 @@ fn damaged_shape() -> impl Strategy<Value = (Drawn, Vec<(f64, Damage)>)> {
 fn damaged(drawn: &Drawn, damages: &[(f64, Damage)]) -> PolygonMesh {
     let whole = weld(drawn.shape.polygons(), 0.0).polygons;
     let vertices = whole.positions.len() as f64;
-    let mut faces: Vec<Vec<u32>> = (0..whole.face_count()).map(|f| whole.face(f).to_vec()).collect();
+    let mut faces: Vec<Vec<u32>> = (0..whole.face_count())
+        .map(|f| whole.face(f).to_vec())
+        .collect();
     for &(share, damage) in damages {
         let at = (share * faces.len() as f64) as usize;
         match damage {
@@ -63,7 +69,11 @@ fn damaged(drawn: &Drawn, damages: &[(f64, Damage)]) -> PolygonMesh {
     for face in &faces {
         starts.push(starts[starts.len() - 1] + face.len() as u32);
     }
-    PolygonMesh { starts, corners: faces.concat(), ..whole }
+    PolygonMesh {
+        starts,
+        corners: faces.concat(),
+        ..whole
+    }
 }
 
 proptest! {

@@ -36,9 +36,6 @@ impl std::fmt::Debug for Drawn {
 }
 
 macro_rules! drawn {
-    ($call:expr) => {
-        Drawn { shape: $call, name: stringify!($call).to_owned() }
-    };
     ($call:expr, $($value:expr),*) => {
         Drawn {
             shape: $call,
@@ -61,7 +58,11 @@ pub fn shape() -> impl Strategy<Value = Drawn> {
         |(radius, height, sides, rows, diagonals)| {
             drawn!(
                 shapes::cylinder(radius, height, sides, rows, diagonals),
-                radius, height, sides, rows, diagonals
+                radius,
+                height,
+                sides,
+                rows,
+                diagonals
             )
         },
     );
@@ -70,20 +71,35 @@ pub fn shape() -> impl Strategy<Value = Drawn> {
     });
     let cuboid = [0.2..3.0, 0.2..3.0, 0.2..3.0]
         .prop_map(|[x, y, z]| drawn!(shapes::cuboid(dvec3(x, y, z)), x, y, z));
-    let torus = (1.0..2.0, 0.2..0.8, 8usize..32, 6usize..20).prop_map(
-        |(major, minor, sides, rows)| {
-            drawn!(shapes::torus(major, minor, sides, rows), major, minor, sides, rows)
-        },
-    );
+    let torus =
+        (1.0..2.0, 0.2..0.8, 8usize..32, 6usize..20).prop_map(|(major, minor, sides, rows)| {
+            drawn!(
+                shapes::torus(major, minor, sides, rows),
+                major,
+                minor,
+                sides,
+                rows
+            )
+        });
     let sphere = (1usize..4).prop_map(|levels| drawn!(shapes::icosphere(levels), levels));
     let smooth_cube = (0.05..0.4, 1usize..5, 1usize..4).prop_map(|(radius, flat, half)| {
-        drawn!(shapes::smooth_cube(radius, flat, 2 * half), radius, flat, half)
+        drawn!(
+            shapes::smooth_cube(radius, flat, 2 * half),
+            radius,
+            flat,
+            half
+        )
     });
-    let stadium = (0.5..3.0, 0.2..1.0, 0.1..2.0, 3usize..16).prop_map(
-        |(length, radius, height, steps)| {
-            drawn!(shapes::stadium(length, radius, height, steps), length, radius, height, steps)
-        },
-    );
+    let stadium =
+        (0.5..3.0, 0.2..1.0, 0.1..2.0, 3usize..16).prop_map(|(length, radius, height, steps)| {
+            drawn!(
+                shapes::stadium(length, radius, height, steps),
+                length,
+                radius,
+                height,
+                steps
+            )
+        });
     let rounded_box = (
         [1.0..3.0, 1.0..3.0, 0.2..3.0],
         prop::array::uniform4(prop_oneof![Just(0.0), 0.05..0.45]),
@@ -92,20 +108,36 @@ pub fn shape() -> impl Strategy<Value = Drawn> {
         .prop_map(|([x, y, z], radii, steps)| {
             drawn!(
                 shapes::rounded_box(dvec3(x, y, z), radii, steps),
-                x, y, z, radii, steps
+                x,
+                y,
+                z,
+                radii,
+                steps
             )
         });
     let bracket = (2usize..10).prop_map(|steps| drawn!(shapes::bracket(steps), steps));
     let shaft = (8usize..40, 2usize..8)
         .prop_map(|(sides, steps)| drawn!(shapes::shaft(sides, steps), sides, steps));
     prop_oneof![
-        cylinder, cone, cuboid, torus, sphere, smooth_cube, stadium, rounded_box, bracket, shaft,
+        cylinder,
+        cone,
+        cuboid,
+        torus,
+        sphere,
+        smooth_cube,
+        stadium,
+        rounded_box,
+        bracket,
+        shaft,
     ]
 }
 
 /// An order of `count` faces. By a number rather than drawn as such, so that a failing case can be read.
 pub fn order(count: usize, number: u64) -> Vec<usize> {
-    let mut rng = TestRng::from_seed(RngAlgorithm::XorShift, &[number; 2].map(u64::to_le_bytes).concat());
+    let mut rng = TestRng::from_seed(
+        RngAlgorithm::XorShift,
+        &[number; 2].map(u64::to_le_bytes).concat(),
+    );
     let mut order: Vec<usize> = (0..count).collect();
     for last in (1..count).rev() {
         order.swap(last, rng.random_range(0..=last));

@@ -15,7 +15,11 @@ const PROFILES: [&str; 2] = ["pipeline.profile=cad", "pipeline.profile=lavoue200
 fn rough(shape: &Shape, by: f64) -> Shape {
     let noise = |x: f64| (x * 1e4).sin();
     shape.map(|p| {
-        let [a, b, c] = [p.dot(DVec3::ONE), p.dot(dvec3(0.7, -0.3, 1.9)), p.dot(dvec3(-1.1, 2.3, 0.2))];
+        let [a, b, c] = [
+            p.dot(DVec3::ONE),
+            p.dot(dvec3(0.7, -0.3, 1.9)),
+            p.dot(dvec3(-1.1, 2.3, 0.2)),
+        ];
         p + by * dvec3(noise(a), noise(b), noise(c))
     })
 }
@@ -25,10 +29,21 @@ fn bits(cut: &Segmentation) -> (Vec<u32>, Vec<u32>, String) {
     let of = &cut.vertices;
     let directions = of.d_min.iter().chain(&of.d_max).flatten();
     let floats = of.k_min.iter().chain(&of.k_max).chain(directions);
-    let stages: Vec<_> = cut.stages.iter().map(|stage| (stage.stage, &stage.counts)).collect();
+    let stages: Vec<_> = cut
+        .stages
+        .iter()
+        .map(|stage| (stage.stage, &stage.counts))
+        .collect();
     // `Debug` writes as many digits as tell a number from its neighbours.
-    let rest = format!("{:?} {:?} {:?} {stages:?}", cut.patches, cut.boundaries, cut.findings);
-    (cut.face_patches.clone(), floats.map(|x| x.to_bits()).collect(), rest)
+    let rest = format!(
+        "{:?} {:?} {:?} {stages:?}",
+        cut.patches, cut.boundaries, cut.findings
+    );
+    (
+        cut.face_patches.clone(),
+        floats.map(|x| x.to_bits()).collect(),
+        rest,
+    )
 }
 
 fn differing(shape: &Shape, profile: &str) -> Option<usize> {
@@ -57,7 +72,10 @@ fn one_two_and_eight_threads_give_the_same_bits_where_there_is_work_for_all() {
     let large = [
         ("torus", shapes::torus(1.0, 0.3, 240, 120)),
         ("smooth cube", shapes::smooth_cube(0.2, 40, 20)),
-        ("cylinder", shapes::cylinder(1.0, 2.0, 300, 100, Diagonals::Alternating)),
+        (
+            "cylinder",
+            shapes::cylinder(1.0, 2.0, 300, 100, Diagonals::Alternating),
+        ),
     ];
     for (name, shape) in large {
         for by in [0.0, 2e-4] {

@@ -21,7 +21,10 @@ pub struct Sample {
 impl Sample {
     /// How many patches are right.
     pub fn patch_count(&self) -> usize {
-        self.patches.iter().max().map_or(0, |&last| last as usize + 1)
+        self.patches
+            .iter()
+            .max()
+            .map_or(0, |&last| last as usize + 1)
     }
 }
 
@@ -41,7 +44,11 @@ pub fn samples() -> Vec<Sample> {
         ),
         stl("shaft.stl", &shapes::shaft(32, 4), 12.0),
         stl("smooth_cube.stl", &shapes::smooth_cube(0.2, 3, 4), 50.0),
-        text_stl("stadium_plate.stl", &shapes::stadium(2.0, 0.5, 0.25, 10), 30.0),
+        text_stl(
+            "stadium_plate.stl",
+            &shapes::stadium(2.0, 0.5, 0.25, 10),
+            30.0,
+        ),
         ply("torus.ply", &shapes::torus(1.0, 0.3, 36, 20), 20.0),
         obj("turned/cone.obj", &shapes::cone(1.0, 2.0, 24), 10.0),
         stl("turned/shaft.stl", &shapes::shaft(24, 3), 8.0),

@@ -14,12 +14,13 @@ use seamline_mesh::{EdgeKind, Mesh, examine};
 use crate::boundaries::chains;
 use crate::curvature::principal_frames;
 use crate::eigen::free_principal_frame;
+use crate::face_patches::{FacePatches, number_patches};
 use crate::tensor::{Bending, TensorForm, face_tensors, over, vertex_tensors};
 
 pub(crate) fn systems() -> StageSystems {
     (
         fallible(check_labels),
-        number_patches,
+        number,
         collect.pipe(make_rows),
     )
         .chain()
@@ -40,96 +41,13 @@ fn check_labels(labels: Column<FaceLabel>) -> Result<(), StepError> {
     }
 }
 
-/// Every input face one patch, patches numbered by first face. Triangles follow their face.
-fn number_patches(
+fn number(
     mesh: Res<InputMesh>,
     shapes: Column<FaceShape>,
     mut labels: ColumnMut<FaceLabel>,
     mut patches: ResMut<FacePatches>,
 ) {
-    let mesh = &mesh.0;
-    let labels = &mut labels[..];
-    let of_face = label_faces(mesh, &shapes, labels);
-
-    let mut numbers = vec![NONE; labels.len()];
-    let mut count = 0;
-    let of_face: Vec<u32> = of_face
-        .into_iter()
-        .map(|label| {
-            let number = &mut numbers[label as usize];
-            if *number == NONE {
-                *number = count;
-                count += 1;
-            }
-            *number
-        })
-        .collect();
-    for (label, &face) in labels.iter_mut().zip(&mesh.face_of_triangle) {
-        label.0 = of_face[face as usize];
-    }
-    *patches = FacePatches {
-        of_face,
-        count: count as usize,
-    };
-}
-
-/// The patch of each input face, and how many patches there are.
-#[derive(Resource, Default)]
-pub(crate) struct FacePatches {
-    of_face: Vec<u32>,
-    count: usize,
-}
-
-/// The label of each input face: that of most of its area. A face without a triangle takes that of a
-/// triangle it shares an edge with, else a vertex, else that of the face before it.
-fn label_faces(mesh: &Mesh, shapes: &[FaceShape], labels: &[FaceLabel]) -> Vec<u32> {
-    let mut of_face = vec![NONE; mesh.polygons.face_count()];
-    let mut triangle = 0;
-    for same_face in mesh.face_of_triangle.chunk_by(|a, b| a == b) {
-        let mut areas: Vec<(u32, f64)> = Vec::with_capacity(1);
-        for t in triangle..triangle + same_face.len() {
-            match areas.iter_mut().find(|(label, _)| *label == labels[t].0) {
-                Some((_, area)) => *area += shapes[t].area,
-                None => areas.push((labels[t].0, shapes[t].area)),
-            }
-        }
-        let most = areas
-            .iter()
-            .max_by(|a, b| a.1.total_cmp(&b.1).then(b.0.cmp(&a.0)));
-        of_face[same_face[0] as usize] = most.map_or(NONE, |(label, _)| *label);
-        triangle += same_face.len();
-    }
-    label_empty_faces(mesh, labels, &mut of_face);
-    of_face
-}
-
-fn label_empty_faces(mesh: &Mesh, labels: &[FaceLabel], of_face: &mut [u32]) {
-    if !of_face.contains(&NONE) {
-        return;
-    }
-    let around = seamline_mesh::Csr::inverse_of(mesh.positions().len(), &mesh.triangles);
-    for face in 0..of_face.len() {
-        if of_face[face] != NONE {
-            continue;
-        }
-        let corners = mesh.polygons.face(face);
-        let shared = |t: &u32| {
-            mesh.triangles[*t as usize]
-                .iter()
-                .filter(|v| corners.contains(v))
-                .count()
-        };
-        let touching = corners
-            .iter()
-            .flat_map(|&v| around.row(v as usize))
-            .copied();
-        let nearest = touching.max_by_key(|t| (shared(t), std::cmp::Reverse(*t)));
-        of_face[face] = match nearest {
-            Some(t) => labels[t as usize].0,
-            None if face > 0 => of_face[face - 1],
-            None => labels[0].0,
-        };
-    }
+    *patches = number_patches(&mesh.0, &shapes, &mut labels);
 }
 
 fn collect(
@@ -140,7 +58,7 @@ fn collect(
     positions: Column<Position>,
     shapes: Column<FaceShape>,
     angles: Column<DihedralAngle>,
-    sharp_edges: Column<SharpEdge>,
+    sharp: Column<SharpEdge>,
     sharp_vertices: Column<SharpVertex>,
     facet_of_face: Column<FaceSample>,
     samples: Column<Sample>,
@@ -151,24 +69,31 @@ fn collect(
         positions: &positions,
         shapes: &shapes,
         angles: &angles,
-        sharp: &sharp_edges,
+        sharp: &sharp,
     };
     let curvatures = face_curvatures(&bending, &facet_of_face, &samples);
-    let boundaries = boundaries(&bending, &labels, scale.length);
-    let summaries = summaries(
-        &bending,
-        &labels,
-        &curvatures,
-        &patches.of_face,
-        patches.count,
-        scale.length,
-    );
+    describe(&mesh.0, &bending, &sharp_vertices, &curvatures, &labels, &patches, scale.length)
+}
+
+/// Everything told of finished patches. `labels` has the patch of each triangle, `curvatures` that of each
+/// face ([`face_curvatures`]); `length` is the scale ([`MeshScale`]).
+pub fn describe(
+    mesh: &Mesh,
+    bending: &Bending,
+    sharp_vertices: &[SharpVertex],
+    curvatures: &[Principal],
+    labels: &[FaceLabel],
+    patches: &FacePatches,
+    length: f64,
+) -> Segmentation {
+    let boundaries = boundaries(bending, labels, length);
+    let summaries = summaries(bending, labels, curvatures, patches, length);
     Segmentation {
         face_patches: patches.of_face.clone(),
         patches: with_neighbours(summaries, &boundaries),
         boundaries,
-        vertices: vertex_quantities(&bending, &sharp_vertices, scale.length),
-        findings: examine(&mesh.0, &topology.0),
+        vertices: vertex_quantities(bending, sharp_vertices, length),
+        findings: examine(mesh, bending.topology),
         stages: Vec::new(),
     }
 }
@@ -189,7 +114,7 @@ fn make_rows(In(segmentation): In<Segmentation>, world: &mut World) {
 
 /// Principal curvatures of each face: those of its facet after filtering, where facets carry curvature,
 /// else those of its own tensor, sharp edges left out.
-fn face_curvatures(
+pub fn face_curvatures(
     bending: &Bending,
     facet_of_face: &[FaceSample],
     samples: &[Sample],
@@ -278,12 +203,11 @@ fn summaries(
     bending: &Bending,
     labels: &[FaceLabel],
     curvatures: &[Principal],
-    of_face: &[u32],
-    count: usize,
+    patches: &FacePatches,
     length: f64,
 ) -> Vec<PatchSummary> {
-    let mut summaries = vec![PatchSummary::default(); count];
-    for &patch in of_face {
+    let mut summaries = vec![PatchSummary::default(); patches.count];
+    for &patch in &patches.of_face {
         summaries[patch as usize].faces += 1;
     }
     let topology = bending.topology;

@@ -16,7 +16,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::eigen::tangent_principal_frame;
 use crate::tensor::{Bending, add_scaled, face_tensors, over};
-use seamline_mesh::Sets;
+use seamline_mesh::{Sets, Topology};
 
 /// The `[facets]` table: curvature on facets.
 #[derive(Resource, Clone, Debug, Serialize, Deserialize, JsonSchema)]
@@ -161,21 +161,36 @@ fn filter(
     mut samples: ColumnMut<Sample>,
     mut features: ColumnMut<SampleFeature>,
 ) {
-    let pairs = smooth_neighbours(&topology.0, &sharp, &facet_of_face);
     let samples = &mut samples[..];
+    filter_curvatures(&settings, &topology.0, &sharp, &facet_of_face, samples);
+    for (feature, sample) in features.iter_mut().zip(samples) {
+        *feature = facet_feature(&settings, sample);
+    }
+}
+
+/// What is compared of a facet: `ln(1 + c / barely_curved)`, so that a ratio of radii counts alike at any
+/// size.
+pub fn facet_feature(settings: &FacetSettings, sample: &Sample) -> SampleFeature {
+    SampleFeature(sample.curvature.map(|c| (c / settings.barely_curved).ln_1p()))
+}
+
+/// The median filter, `median_rounds` times, all facets at once in each.
+pub fn filter_curvatures(
+    settings: &FacetSettings,
+    topology: &Topology,
+    sharp: &[SharpEdge],
+    facet_of_face: &[FaceSample],
+    samples: &mut [Sample],
+) {
+    let pairs = smooth_neighbours(topology, sharp, facet_of_face);
     for _ in 0..settings.median_rounds {
         median_filter(&pairs, settings.similar_area_share, samples);
-    }
-    for (feature, sample) in features.iter_mut().zip(samples) {
-        feature.0 = sample
-            .curvature
-            .map(|c| (c / settings.barely_curved).ln_1p());
     }
 }
 
 /// Pairs of facets that touch along an edge that is not sharp, each in both orders, sorted, once.
 fn smooth_neighbours(
-    topology: &seamline_mesh::Topology,
+    topology: &Topology,
     sharp: &[SharpEdge],
     facet_of_face: &[FaceSample],
 ) -> Vec<[u32; 2]> {

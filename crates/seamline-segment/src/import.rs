@@ -91,7 +91,7 @@ fn import(world: &mut World) -> Result<(), StepError> {
 }
 
 /// The scale of a mesh, `None` if it has no area. The centre is that of the bounding box.
-fn scale_of(mesh: &Mesh, by: ScaleBy) -> Option<MeshScale> {
+pub fn scale_of(mesh: &Mesh, by: ScaleBy) -> Option<MeshScale> {
     let [low, high] = mesh.bounding_box();
     let side = (high - low).max_element();
     let centre = low + (high - low) / 2.0;

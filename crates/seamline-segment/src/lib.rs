@@ -10,6 +10,7 @@ mod curvature;
 mod eigen;
 mod enrich;
 mod export;
+mod face_patches;
 mod face_shape;
 mod facets;
 mod grow;
@@ -30,12 +31,16 @@ use toml::Table;
 pub use boundaries::chains;
 pub use curvature::{Carrier, CurvatureSettings};
 pub use eigen::{PrincipalFrame, free_principal_frame, tangent_principal_frame};
+pub use export::{describe, face_curvatures};
+pub use face_patches::{FacePatches, number_patches};
 pub use face_shape::face_shapes;
-pub use facets::{FacetSettings, Facets, find_facets};
-pub use import::{MeshSettings, ScaleBy};
-pub use merge::{MergeSettings, RegionDistance};
-pub use score::ScoreSettings;
-pub use sharp::{SharpSettings, dihedral_angles};
+pub use facets::{FacetSettings, Facets, facet_feature, filter_curvatures, find_facets};
+pub use grow::{Grown, grow_facets, grow_pure_triangles};
+pub use import::{MeshSettings, ScaleBy, scale_of};
+pub use merge::{MergeSettings, RegionDistance, reduce};
+pub use region_graph::{Link, Merged, RegionGraph};
+pub use score::{ScoreSettings, angle_score, curvature_score, facet_scores, vertex_scores};
+pub use sharp::{SharpSettings, dihedral_angles, sharp_edges, sharp_vertices};
 pub use tensor::{Bending, TensorForm, TensorPair, edge_tensor, face_tensors, vertex_tensors};
 
 /// The built-in steps and their tables of settings.
@@ -70,7 +75,7 @@ fn install(in_force: &Table) -> Result<InstallStep, SettingsError> {
             world.insert_resource(merge.clone());
             world.insert_resource(score.clone());
 
-            world.init_resource::<export::FacePatches>();
+            world.init_resource::<face_patches::FacePatches>();
 
             schedule.add_systems((import::systems(), face_shape::systems()));
             let on_vertices = curvature.carrier == Carrier::Vertices;

@@ -85,27 +85,39 @@ fn score_by_facets(
     samples: Column<Sample>,
     mut scores: ColumnMut<BoundaryScore>,
 ) {
-    let (topology, positions, shapes) = (&topology.0, &positions[..], &shapes[..]);
-    let (facet_of_face, samples) = (&facet_of_face[..], &samples[..]);
-    scores
-        .par_iter_mut()
-        .enumerate()
-        .with_min_len(2048)
-        .for_each(|(edge, score)| {
-            let Some(faces) = topology.face_pair(edge) else {
-                score.0 = 0.0;
-                return;
-            };
-            let facets = faces.map(|face| &samples[facet_of_face[face as usize].0 as usize]);
-            let normal = faces.map(|face| shapes[face as usize].normal);
-            let along = edge_direction(topology, positions, edge);
-            let angle = facet_angle_score(along, facets, normal[0] + normal[1]);
-            score.0 = weighed(
-                angle,
-                facet_curvature_score(facets),
-                settings.curvature_weight,
-            );
-        });
+    facet_scores(
+        &topology.0,
+        &positions,
+        &shapes,
+        &facet_of_face,
+        &samples,
+        settings.curvature_weight,
+        &mut scores,
+    );
+}
+
+/// The score of every edge from the two facets at it: their mean tensor across their mean normal, and how
+/// much their curvatures differ. 0 at borders and non-manifold edges.
+pub fn facet_scores(
+    topology: &Topology,
+    positions: &[Position],
+    shapes: &[FaceShape],
+    facet_of_face: &[FaceSample],
+    samples: &[Sample],
+    curvature_weight: f64,
+    scores: &mut [BoundaryScore],
+) {
+    scores.par_iter_mut().enumerate().with_min_len(2048).for_each(|(edge, score)| {
+        let Some(faces) = topology.face_pair(edge) else {
+            score.0 = 0.0;
+            return;
+        };
+        let facets = faces.map(|face| &samples[facet_of_face[face as usize].0 as usize]);
+        let normal = faces.map(|face| shapes[face as usize].normal);
+        let along = edge_direction(topology, positions, edge);
+        let angle = facet_angle_score(along, facets, normal[0] + normal[1]);
+        score.0 = weighed(angle, facet_curvature_score(facets), curvature_weight);
+    });
 }
 
 fn edge_direction(topology: &Topology, positions: &[Position], edge: usize) -> DVec3 {

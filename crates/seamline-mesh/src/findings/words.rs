@@ -112,7 +112,7 @@ impl Findings {
             self.faces_without_triangle,
             "face",
             "faces",
-            " that repeat a vertex, so that no triangle is left",
+            " with a repeated vertex, so that no triangle is left",
         );
         say(
             self.isolated_vertices,

@@ -1,0 +1,91 @@
+//! The patch of each input face, out of the labels of triangles.
+
+use bevy_ecs::prelude::*;
+use seamline_ecs::components::{FaceLabel, FaceShape, NONE};
+use seamline_mesh::{Csr, Mesh};
+
+/// The patch of each input face, and how many patches there are.
+#[derive(Resource, Clone, Debug, Default)]
+pub struct FacePatches {
+    /// One an input face, numbered from 0 by first face.
+    pub of_face: Vec<u32>,
+    /// How many.
+    pub count: usize,
+}
+
+/// Every input face one patch, patches numbered by first face. Triangles follow their face.
+pub fn number_patches(mesh: &Mesh, shapes: &[FaceShape], labels: &mut [FaceLabel]) -> FacePatches {
+    let mut numbers = vec![NONE; labels.len()];
+    let mut count = 0;
+    let of_face: Vec<u32> = label_faces(mesh, shapes, labels)
+        .into_iter()
+        .map(|label| {
+            let number = &mut numbers[label as usize];
+            if *number == NONE {
+                *number = count;
+                count += 1;
+            }
+            *number
+        })
+        .collect();
+    for (label, &face) in labels.iter_mut().zip(&mesh.face_of_triangle) {
+        label.0 = of_face[face as usize];
+    }
+    FacePatches {
+        of_face,
+        count: count as usize,
+    }
+}
+
+/// The label of each input face: that of most of its area. A face without a triangle takes that of a
+/// triangle it shares an edge with, else a vertex, else that of the face before it.
+fn label_faces(mesh: &Mesh, shapes: &[FaceShape], labels: &[FaceLabel]) -> Vec<u32> {
+    let mut of_face = vec![NONE; mesh.polygons.face_count()];
+    let mut triangle = 0;
+    for same_face in mesh.face_of_triangle.chunk_by(|a, b| a == b) {
+        let mut areas: Vec<(u32, f64)> = Vec::with_capacity(1);
+        for t in triangle..triangle + same_face.len() {
+            match areas.iter_mut().find(|(label, _)| *label == labels[t].0) {
+                Some((_, area)) => *area += shapes[t].area,
+                None => areas.push((labels[t].0, shapes[t].area)),
+            }
+        }
+        let most = areas
+            .iter()
+            .max_by(|a, b| a.1.total_cmp(&b.1).then(b.0.cmp(&a.0)));
+        of_face[same_face[0] as usize] = most.map_or(NONE, |(label, _)| *label);
+        triangle += same_face.len();
+    }
+    label_empty_faces(mesh, labels, &mut of_face);
+    of_face
+}
+
+fn label_empty_faces(mesh: &Mesh, labels: &[FaceLabel], of_face: &mut [u32]) {
+    if !of_face.contains(&NONE) {
+        return;
+    }
+    let around = Csr::inverse_of(mesh.positions().len(), &mesh.triangles);
+    for face in 0..of_face.len() {
+        if of_face[face] != NONE {
+            continue;
+        }
+        let corners = mesh.polygons.face(face);
+        let shared = |t: &u32| {
+            mesh.triangles[*t as usize]
+                .iter()
+                .filter(|v| corners.contains(v))
+                .count()
+        };
+        let touching = corners
+            .iter()
+            .flat_map(|&v| around.row(v as usize))
+            .copied();
+        let nearest = touching.max_by_key(|t| (shared(t), std::cmp::Reverse(*t)));
+        of_face[face] = match nearest {
+            Some(t) => labels[t as usize].0,
+            None if face > 0 => of_face[face - 1],
+            None => labels[0].0,
+        };
+    }
+}
+

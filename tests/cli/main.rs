@@ -1,0 +1,10 @@
+//! The program from outside: what is typed, what is found afterwards.
+
+mod config;
+mod demo;
+mod home;
+mod inspect;
+mod outputs;
+mod settings;
+mod several;
+mod threads;

@@ -3,11 +3,12 @@
 
 use seamline_contour_tracking::{patches, track};
 use seamline_ecs::components::{BoundaryScore, ContourState, FaceLabel, Position, SharpEdge};
-use seamline_ecs::{Column, Worker};
-use seamline_mesh::{EdgeKind, Topology, read, weld};
+use seamline_ecs::{Column, MeshTopology, Worker};
+use seamline_mesh::{EdgeKind, read, weld};
 use seamline_tests::{bench, pipeline};
 use std::sync::Arc;
 
+use bevy_ecs::prelude::*;
 use bevy_ecs::system::RunSystemOnce;
 
 #[test]
@@ -16,7 +17,6 @@ fn hard_edges_of_fandisk_close_into_the_same_14_patches_from_25_to_60_degrees() 
         return;
     };
     let mesh = Arc::new(weld(read(&path).expect("fandisk reads"), 0.0));
-    let topology = Topology::build(mesh.positions().len(), mesh.triangles.clone());
     for angle in [25, 30, 40, 50, 60] {
         let settings = [
             "pipeline.profile=lavoue2005",
@@ -25,10 +25,13 @@ fn hard_edges_of_fandisk_close_into_the_same_14_patches_from_25_to_60_degrees() 
         ];
         let mut worker = Worker::new(pipeline(&settings));
         worker.segment(Arc::clone(&mesh)).expect("fandisk is cut");
-        let columns = |p: Column<Position>, s: Column<BoundaryScore>, e: Column<SharpEdge>| {
-            (p.to_vec(), s.to_vec(), e.to_vec())
+        let columns = |t: Res<MeshTopology>,
+                       p: Column<Position>,
+                       s: Column<BoundaryScore>,
+                       e: Column<SharpEdge>| {
+            (t.0.clone(), p.to_vec(), s.to_vec(), e.to_vec())
         };
-        let (positions, scores, sharp) = worker
+        let (topology, positions, scores, sharp) = worker
             .world_mut()
             .run_system_once(columns)
             .expect("the columns are there");

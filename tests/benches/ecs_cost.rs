@@ -21,6 +21,7 @@ use seamline_tests::pipeline;
 #[derive(Default)]
 struct Bare {
     topology: Topology,
+    order: SpatialOrder,
     positions: Vec<Position>,
     sharp_vertices: Vec<SharpVertex>,
     shapes: Vec<FaceShape>,
@@ -106,17 +107,16 @@ impl Bare {
         self.grow_and_merge(&clusters);
         self.rectify();
         let curvatures = face_curvatures(&self.bending(), &self.facet_of_face, &self.samples);
-        let face_patches = number_patches(mesh, &self.shapes, &mut self.labels);
-        let (labels, length) = (&self.labels, self.length);
-        describe(
-            mesh,
-            &self.bending(),
-            &self.sharp_vertices,
-            &curvatures,
-            labels,
-            &face_patches,
-            length,
-        )
+        let face_patches = number_patches(mesh, &self.order, &self.shapes, &mut self.labels);
+        let rows = LabelledRows {
+            bending: self.bending(),
+            order: &self.order,
+            sharp_vertices: &self.sharp_vertices,
+            curvatures: &curvatures,
+            labels: &self.labels,
+            length: self.length,
+        };
+        describe(mesh, &rows, &face_patches)
     }
 
     fn grow_and_merge(&mut self, clusters: &[SampleCluster]) {

@@ -15,14 +15,11 @@ use crate::boundaries::chains;
 use crate::curvature::principal_frames;
 use crate::eigen::free_principal_frame;
 use crate::face_patches::{FacePatches, number_patches};
+use crate::spatial_order::SpatialOrder;
 use crate::tensor::{Bending, TensorForm, face_tensors, over, vertex_tensors};
 
 pub(crate) fn systems() -> StageSystems {
-    (
-        fallible(check_labels),
-        number,
-        collect.pipe(make_rows),
-    )
+    (fallible(check_labels), number, collect.pipe(make_rows))
         .chain()
         .in_set(Stage::Export)
 }
@@ -43,15 +40,17 @@ fn check_labels(labels: Column<FaceLabel>) -> Result<(), StepError> {
 
 fn number(
     mesh: Res<InputMesh>,
+    order: Res<SpatialOrder>,
     shapes: Column<FaceShape>,
     mut labels: ColumnMut<FaceLabel>,
     mut patches: ResMut<FacePatches>,
 ) {
-    *patches = number_patches(&mesh.0, &shapes, &mut labels);
+    *patches = number_patches(&mesh.0, &order, &shapes, &mut labels);
 }
 
 fn collect(
     mesh: Res<InputMesh>,
+    order: Res<SpatialOrder>,
     patches: Res<FacePatches>,
     scale: Res<MeshScale>,
     topology: Res<MeshTopology>,
@@ -72,28 +71,43 @@ fn collect(
         sharp: &sharp,
     };
     let curvatures = face_curvatures(&bending, &facet_of_face, &samples);
-    describe(&mesh.0, &bending, &sharp_vertices, &curvatures, &labels, &patches, scale.length)
+    let rows = LabelledRows {
+        bending,
+        order: &order,
+        sharp_vertices: &sharp_vertices,
+        curvatures: &curvatures,
+        labels: &labels,
+        length: scale.length,
+    };
+    describe(&mesh.0, &rows, &patches)
 }
 
-/// Everything told of finished patches. `labels` has the patch of each triangle, `curvatures` that of each
-/// face ([`face_curvatures`]); `length` is the scale ([`MeshScale`]).
-pub fn describe(
-    mesh: &Mesh,
-    bending: &Bending,
-    sharp_vertices: &[SharpVertex],
-    curvatures: &[Principal],
-    labels: &[FaceLabel],
-    patches: &FacePatches,
-    length: f64,
-) -> Segmentation {
-    let boundaries = boundaries(bending, labels, length);
-    let summaries = summaries(bending, labels, curvatures, patches, length);
+/// A finished mesh in rows.
+pub struct LabelledRows<'a> {
+    /// Geometry.
+    pub bending: Bending<'a>,
+    /// Which row holds what.
+    pub order: &'a SpatialOrder,
+    /// One a vertex.
+    pub sharp_vertices: &'a [SharpVertex],
+    /// One a face ([`face_curvatures`]).
+    pub curvatures: &'a [Principal],
+    /// The patch of each face.
+    pub labels: &'a [FaceLabel],
+    /// The scale ([`MeshScale`]).
+    pub length: f64,
+}
+
+/// Everything told of finished patches, by the mesh's own vertices and in its own unit.
+pub fn describe(mesh: &Mesh, rows: &LabelledRows, patches: &FacePatches) -> Segmentation {
+    let boundaries = boundaries(rows);
+    let summaries = summaries(rows, patches);
     Segmentation {
         face_patches: patches.of_face.clone(),
         patches: with_neighbours(summaries, &boundaries),
         boundaries,
-        vertices: vertex_quantities(bending, sharp_vertices, length),
-        findings: examine(mesh, bending.topology),
+        vertices: vertex_quantities(rows),
+        findings: examine(mesh, rows.bending.topology),
         stages: Vec::new(),
     }
 }
@@ -143,25 +157,37 @@ pub fn face_curvatures(
 
 /// Curvature at every vertex for display, by the `ring` form with sharp edges left out: exact on prisms,
 /// and not blurred by creases.
-fn vertex_quantities(bending: &Bending, sharp: &[SharpVertex], length: f64) -> VertexQuantities {
-    let tensors = vertex_tensors(bending, TensorForm::Ring, 0.0);
-    let frames = principal_frames(bending, sharp, &tensors, |pair| &pair.smooth);
-    VertexQuantities {
-        k_min: frames.iter().map(|f| (f.k.k_min / length) as f32).collect(),
-        k_max: frames.iter().map(|f| (f.k.k_max / length) as f32).collect(),
-        d_min: frames
-            .iter()
-            .map(|f| f.d_min.as_vec3().to_array())
-            .collect(),
-        d_max: frames
-            .iter()
-            .map(|f| f.d_max.as_vec3().to_array())
-            .collect(),
+fn vertex_quantities(rows: &LabelledRows) -> VertexQuantities {
+    let tensors = vertex_tensors(&rows.bending, TensorForm::Ring, 0.0);
+    let frames = principal_frames(&rows.bending, rows.sharp_vertices, &tensors, |pair| {
+        &pair.smooth
+    });
+    let count = frames.len();
+    let mut quantities = VertexQuantities {
+        k_min: vec![0.0; count],
+        k_max: vec![0.0; count],
+        d_min: vec![[0.0; 3]; count],
+        d_max: vec![[0.0; 3]; count],
+    };
+    for (&vertex, frame) in rows.order.vertex_of_row.iter().zip(frames) {
+        let vertex = vertex as usize;
+        quantities.k_min[vertex] = (frame.k.k_min / rows.length) as f32;
+        quantities.k_max[vertex] = (frame.k.k_max / rows.length) as f32;
+        quantities.d_min[vertex] = frame.d_min.as_vec3().to_array();
+        quantities.d_max[vertex] = frame.d_max.as_vec3().to_array();
     }
+    quantities
 }
 
 /// Where two patches touch, by pairs of ids.
-fn boundaries(bending: &Bending, labels: &[FaceLabel], length: f64) -> Vec<Boundary> {
+fn boundaries(rows: &LabelledRows) -> Vec<Boundary> {
+    let LabelledRows {
+        bending,
+        order,
+        labels,
+        length,
+        ..
+    } = rows;
     let topology = bending.topology;
     let mut edges: Vec<([u32; 2], u32)> = Vec::new();
     for (edge, faces) in topology.edge_faces.iter().enumerate() {
@@ -186,7 +212,9 @@ fn boundaries(bending: &Bending, labels: &[FaceLabel], length: f64) -> Vec<Bound
                 .sum();
             let ends: Vec<_> = common
                 .iter()
-                .map(|&(_, e)| topology.edge_vertices[e as usize])
+                .map(|&(_, e)| {
+                    topology.edge_vertices[e as usize].map(|row| order.vertex_of_row[row as usize])
+                })
                 .collect();
             Boundary {
                 patches: common[0].0,
@@ -199,13 +227,14 @@ fn boundaries(bending: &Bending, labels: &[FaceLabel], length: f64) -> Vec<Bound
 }
 
 /// Area, perimeter and curvature of each patch.
-fn summaries(
-    bending: &Bending,
-    labels: &[FaceLabel],
-    curvatures: &[Principal],
-    patches: &FacePatches,
-    length: f64,
-) -> Vec<PatchSummary> {
+fn summaries(rows: &LabelledRows, patches: &FacePatches) -> Vec<PatchSummary> {
+    let LabelledRows {
+        bending,
+        labels,
+        curvatures,
+        length,
+        ..
+    } = rows;
     let mut summaries = vec![PatchSummary::default(); patches.count];
     for &patch in &patches.of_face {
         summaries[patch as usize].faces += 1;

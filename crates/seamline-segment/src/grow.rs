@@ -78,7 +78,14 @@ fn grow_from_facets(
     samples: Column<Sample>,
     clusters: Column<SampleCluster>,
 ) -> Grown {
-    grow_facets(&topology.0, &sharp, &facet_of_face, &shapes, &samples, &clusters)
+    grow_facets(
+        &topology.0,
+        &sharp,
+        &facet_of_face,
+        &shapes,
+        &samples,
+        &clusters,
+    )
 }
 
 /// Regions from clusters of facets: facets of equal cluster, connected over edges that are not sharp. A
@@ -91,8 +98,10 @@ pub fn grow_facets(
     samples: &[Sample],
     clusters: &[SampleCluster],
 ) -> Grown {
-    let cluster_of_face: Vec<u32> =
-        facet_of_face.iter().map(|facet| clusters[facet.0 as usize].0).collect();
+    let cluster_of_face: Vec<u32> = facet_of_face
+        .iter()
+        .map(|facet| clusters[facet.0 as usize].0)
+        .collect();
     let (of_face, count) = components(topology, sharp, &cluster_of_face);
 
     let mut sums = vec![([0.0; 2], 0.0); count];
@@ -102,8 +111,18 @@ pub fn grow_facets(
         *sum = [0, 1].map(|k| sum[k] + curvature[k] * shape.area);
         *area += shape.area;
     }
-    let mean = |(sum, area): ([f64; 2], f64)| if area > 0.0 { sum.map(|s| s / area) } else { [0.0; 2] };
-    Grown { of_face, curvatures: sums.into_iter().map(mean).collect(), cracks: 0 }
+    let mean = |(sum, area): ([f64; 2], f64)| {
+        if area > 0.0 {
+            sum.map(|s| s / area)
+        } else {
+            [0.0; 2]
+        }
+    };
+    Grown {
+        of_face,
+        curvatures: sums.into_iter().map(mean).collect(),
+        cracks: 0,
+    }
 }
 
 fn grow_from_vertices(

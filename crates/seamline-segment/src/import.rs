@@ -2,6 +2,7 @@
 
 use bevy_ecs::prelude::*;
 use glam::DVec3;
+use rayon::prelude::*;
 use schemars::JsonSchema;
 use seamline_ecs::components::Position;
 use seamline_ecs::rows::{self, Edges, Faces, Vertices};
@@ -11,6 +12,8 @@ use seamline_ecs::{
 };
 use seamline_mesh::{Mesh, Topology};
 use serde::{Deserialize, Serialize};
+
+use crate::spatial_order::SpatialOrder;
 
 /// The `[mesh]` table: how a mesh is read and scaled.
 #[derive(Resource, Clone, Debug, Serialize, Deserialize, JsonSchema)]
@@ -63,62 +66,98 @@ pub(crate) fn systems() -> StageSystems {
 
 fn import(world: &mut World) -> Result<(), StepError> {
     let mesh = world.resource::<InputMesh>().0.clone();
-    let scale = scale_of(&mesh, world.resource::<MeshSettings>().scale).ok_or_else(|| {
+    let by = world.resource::<MeshSettings>().scale;
+    let Laid {
+        scale,
+        mut order,
+        positions,
+    } = lay_out(&mesh, by).ok_or_else(|| {
         StepError::new(
             "no face has an area",
             "the mesh needs one triangle at least whose corners do not lie on one line",
         )
     })?;
-    let topology = Topology::build(mesh.positions().len(), mesh.triangles.clone());
+    let topology = Topology::build(positions.len(), std::mem::take(&mut order.triangles));
     let [vertices, faces, edges] = topology.counts();
     rows::resize::<Vertices>(world, vertices);
     rows::resize::<Faces>(world, faces);
     rows::resize::<Edges>(world, edges);
-
-    let positions: Vec<_> = mesh
-        .positions()
-        .iter()
-        .map(|&p| Position((p - scale.centre) / scale.length))
-        .collect();
     rows::column_mut(world).copy_from_slice(&positions);
+
     let mut counts = world.resource_mut::<Counts>();
     counts.note(Stage::Import, "vertices", vertices);
     counts.note(Stage::Import, "triangles", faces);
     counts.note(Stage::Import, "edges", edges);
     world.insert_resource(scale);
+    world.insert_resource(order);
     world.insert_resource(MeshTopology(topology));
     Ok(())
 }
 
-/// The scale of a mesh, `None` if it has no area. The centre is that of the bounding box.
-pub fn scale_of(mesh: &Mesh, by: ScaleBy) -> Option<MeshScale> {
+/// A mesh in rows.
+#[derive(Clone, Debug)]
+pub struct Laid {
+    /// From the file's coordinates to the rows'.
+    pub scale: MeshScale,
+    /// Which row holds what.
+    pub order: SpatialOrder,
+    /// One a vertex row: scaled, the centre of the bounding box at the origin.
+    pub positions: Vec<Position>,
+}
+
+/// Scales a mesh and puts it in spatial order. `None` if it has no area.
+pub fn lay_out(mesh: &Mesh, by: ScaleBy) -> Option<Laid> {
     let [low, high] = mesh.bounding_box();
     let side = (high - low).max_element();
     let centre = low + (high - low) / 2.0;
+    if side <= 0.0 {
+        return None;
+    }
     // In box sides, so that coordinates of 1e-12 and of 1e12 lose nothing.
-    let at = |v: u32| (mesh.positions()[v as usize] - centre) / side;
+    let unit: Vec<DVec3> = mesh
+        .positions()
+        .par_iter()
+        .map(|&p| (p - centre) / side)
+        .collect();
+    let order = SpatialOrder::of(&unit, &mesh.triangles);
+    let mut positions: Vec<_> = order
+        .vertex_of_row
+        .iter()
+        .map(|&v| Position(unit[v as usize]))
+        .collect();
+    let reach = reach(&positions, &order.triangles)?;
+    let shrink = match by {
+        ScaleBy::LongestSide => 1.0,
+        ScaleBy::Reach => 2.0 * reach,
+    };
+    for position in &mut positions {
+        position.0 /= shrink;
+    }
+    Some(Laid {
+        scale: MeshScale {
+            centre,
+            length: side * shrink,
+        },
+        order,
+        positions,
+    })
+}
+
+/// The greatest distance of a used vertex from the centre of the area. `None` if there is no area.
+fn reach(positions: &[Position], triangles: &[[u32; 3]]) -> Option<f64> {
+    let at = |v: u32| positions[v as usize].0;
     let mut area = 0.0;
     let mut moment = DVec3::ZERO;
-    for corners in &mesh.triangles {
+    for corners in triangles {
         let [a, b, c] = corners.map(at);
         let doubled = (b - a).cross(c - a).length();
         area += doubled;
         moment += (a + b + c) * (doubled / 3.0);
     }
-    if !(side > 0.0 && area > 0.0) {
-        return None;
-    }
-    let length = match by {
-        ScaleBy::LongestSide => side,
-        ScaleBy::Reach => {
-            let middle = moment / area;
-            let reach = mesh
-                .triangles
-                .as_flattened()
-                .iter()
-                .map(|&v| at(v).distance_squared(middle));
-            2.0 * reach.fold(0.0, f64::max).sqrt() * side
-        }
-    };
-    Some(MeshScale { centre, length })
+    let middle = moment / area;
+    let squared = triangles
+        .as_flattened()
+        .iter()
+        .map(|&v| at(v).distance_squared(middle));
+    (area > 0.0).then(|| squared.fold(0.0, f64::max).sqrt())
 }

@@ -19,6 +19,7 @@ mod merge;
 mod region_graph;
 mod score;
 mod sharp;
+mod spatial_order;
 mod tensor;
 
 use std::sync::Arc;
@@ -31,16 +32,17 @@ use toml::Table;
 pub use boundaries::chains;
 pub use curvature::{Carrier, CurvatureSettings};
 pub use eigen::{PrincipalFrame, free_principal_frame, tangent_principal_frame};
-pub use export::{describe, face_curvatures};
+pub use export::{LabelledRows, describe, face_curvatures};
 pub use face_patches::{FacePatches, number_patches};
 pub use face_shape::face_shapes;
 pub use facets::{FacetSettings, Facets, facet_feature, filter_curvatures, find_facets};
 pub use grow::{Grown, grow_facets, grow_pure_triangles};
-pub use import::{MeshSettings, ScaleBy, scale_of};
+pub use import::{Laid, MeshSettings, ScaleBy, lay_out};
 pub use merge::{MergeSettings, RegionDistance, reduce};
 pub use region_graph::{Link, Merged, RegionGraph};
 pub use score::{ScoreSettings, angle_score, curvature_score, facet_scores, vertex_scores};
 pub use sharp::{SharpSettings, dihedral_angles, sharp_edges, sharp_vertices};
+pub use spatial_order::SpatialOrder;
 pub use tensor::{Bending, TensorForm, TensorPair, edge_tensor, face_tensors, vertex_tensors};
 
 /// The built-in steps and their tables of settings.

@@ -149,8 +149,13 @@ impl Eq for Candidate {}
 
 impl Ord for Candidate {
     fn cmp(&self, other: &Self) -> Ordering {
-        let order = self.distance.total_cmp(&other.distance).then(self.names.cmp(&other.names));
-        order.then((self.link, self.stamp).cmp(&(other.link, other.stamp))).reverse()
+        let order = self
+            .distance
+            .total_cmp(&other.distance)
+            .then(self.names.cmp(&other.names));
+        order
+            .then((self.link, self.stamp).cmp(&(other.link, other.stamp)))
+            .reverse()
     }
 }
 
@@ -178,7 +183,9 @@ pub fn reduce(
     let mut reduction = Reduction::of(graph, settings, barely_curved, border);
     let wanted = settings.regions as usize;
     while reduction.left > wanted
-        && let Some(Candidate { distance, regions, .. }) = reduction.shortest()
+        && let Some(Candidate {
+            distance, regions, ..
+        }) = reduction.shortest()
         && (wanted > 0 || distance <= settings.threshold)
     {
         reduction.merge(regions);
@@ -227,7 +234,10 @@ impl<'a> Reduction<'a> {
         };
         for region in 0..count as u32 {
             let higher = reduction.graph.neighbours[region as usize].range(region..);
-            for (other, link) in higher.map(|(&other, &link)| (other, link)).collect::<Vec<_>>() {
+            for (other, link) in higher
+                .map(|(&other, &link)| (other, link))
+                .collect::<Vec<_>>()
+            {
                 reduction.measure(region, other, link);
             }
         }
@@ -237,7 +247,13 @@ impl<'a> Reduction<'a> {
     fn distance(&self, [a, b]: [u32; 2], link: u32) -> Option<f64> {
         let pair = [a, b].map(|region| &self.graph.regions[region as usize]);
         let link = &self.graph.links[link as usize];
-        region_distance(self.settings, self.barely_curved, self.small_below, pair, link)
+        region_distance(
+            self.settings,
+            self.barely_curved,
+            self.small_below,
+            pair,
+            link,
+        )
     }
 
     /// Puts a link on the heap as it is now.
@@ -247,7 +263,13 @@ impl<'a> Reduction<'a> {
             let mut names = [self.sets.first(a), self.sets.first(b)];
             names.sort_unstable();
             let stamp = self.stamps[link as usize];
-            self.heap.push(Candidate { distance, names, regions: [a, b], link, stamp });
+            self.heap.push(Candidate {
+                distance,
+                names,
+                regions: [a, b],
+                link,
+                stamp,
+            });
         }
     }
 
@@ -269,7 +291,11 @@ impl<'a> Reduction<'a> {
 
     fn merge(&mut self, [a, b]: [u32; 2]) {
         let before = [a, b].map(|region| self.graph.regions[region as usize]);
-        let Merged { kept, gone, relinked } = self.graph.merge(a, b, self.border);
+        let Merged {
+            kept,
+            gone,
+            relinked,
+        } = self.graph.merge(a, b, self.border);
         self.sets.unite(kept, gone);
         self.left -= 1;
 
@@ -278,9 +304,13 @@ impl<'a> Reduction<'a> {
         self.changed[kept as usize] += self.change(&before, &after);
         let again: Vec<(u32, u32)> = if self.changed[kept as usize] > MEASURE_AGAIN_AFTER {
             self.changed[kept as usize] = 0.0;
-            self.graph.neighbours[kept as usize].iter().map(|(&other, &link)| (other, link)).collect()
+            self.graph.neighbours[kept as usize]
+                .iter()
+                .map(|(&other, &link)| (other, link))
+                .collect()
         } else {
-            let linked = |other: u32| Some((other, *self.graph.neighbours[kept as usize].get(&other)?));
+            let linked =
+                |other: u32| Some((other, *self.graph.neighbours[kept as usize].get(&other)?));
             relinked.into_iter().filter_map(linked).collect()
         };
         for (other, link) in again {
@@ -296,7 +326,11 @@ impl<'a> Reduction<'a> {
         let curvature = norm(minus(after.curvature, before.curvature));
         let perimeter = (after.perimeter - before.perimeter).abs();
         curvature / (norm(before.curvature) + self.barely_curved)
-            + if perimeter > 0.0 { perimeter / before.perimeter } else { 0.0 }
+            + if perimeter > 0.0 {
+                perimeter / before.perimeter
+            } else {
+                0.0
+            }
     }
 
     fn finish(self) -> (Vec<u32>, Vec<Region>) {

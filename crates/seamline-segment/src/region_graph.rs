@@ -158,7 +158,11 @@ impl RegionGraph {
     /// other, which is left empty.
     pub fn merge(&mut self, a: u32, b: u32, border: Option<&[VertexCurvature]>) -> Merged {
         let links_of = |region: u32| self.neighbours[region as usize].len();
-        let [kept, gone] = if (links_of(b), a) > (links_of(a), b) { [b, a] } else { [a, b] };
+        let [kept, gone] = if (links_of(b), a) > (links_of(a), b) {
+            [b, a]
+        } else {
+            [a, b]
+        };
         let common = self.neighbours[kept as usize].remove(&gone);
         self.neighbours[gone as usize].remove(&kept);
         let common_length = common.map_or(0.0, |link| self.links[link as usize].length);
@@ -186,7 +190,11 @@ impl RegionGraph {
                 }
             }
         }
-        Merged { kept, gone, relinked }
+        Merged {
+            kept,
+            gone,
+            relinked,
+        }
     }
 }
 
@@ -205,7 +213,11 @@ fn united([a, b]: [Region; 2], common_length: f64) -> Region {
     let area = a.area + b.area;
     let blend = |k: usize| (a.curvature[k] * a.area + b.curvature[k] * b.area) / area;
     Region {
-        curvature: if area > 0.0 { [blend(0), blend(1)] } else { a.curvature },
+        curvature: if area > 0.0 {
+            [blend(0), blend(1)]
+        } else {
+            a.curvature
+        },
         area,
         perimeter: (a.perimeter + b.perimeter - 2.0 * common_length).max(0.0),
     }
@@ -281,13 +293,17 @@ mod tests {
     #[test]
     fn merging_adds_areas_and_takes_the_common_border_off_the_perimeters() {
         let mut graph = grid(3, &[0, 1, 2, 0, 1, 2]);
-        graph.merge(0, 1, None);
-        assert_eq!(
-            (graph.regions[0].area, graph.regions[0].perimeter),
-            (4.0, 8.0)
-        );
-        assert_eq!(graph.neighbours[0].keys().copied().collect::<Vec<_>>(), [2]);
-        assert_eq!(nesting(&graph, 0, 2), 3.0);
+        let merged = graph.merge(0, 1, None);
+        let expected = Merged {
+            kept: 1,
+            gone: 0,
+            relinked: vec![],
+        };
+        assert_eq!(merged, expected, "the one with more links stays");
+        let region = graph.regions[1];
+        assert_eq!((region.area, region.perimeter), (4.0, 8.0));
+        assert_eq!(graph.neighbours[1].keys().copied().collect::<Vec<_>>(), [2]);
+        assert_eq!(nesting(&graph, 1, 2), 3.0);
     }
 
     #[test]

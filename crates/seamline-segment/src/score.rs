@@ -107,17 +107,21 @@ pub fn facet_scores(
     curvature_weight: f64,
     scores: &mut [BoundaryScore],
 ) {
-    scores.par_iter_mut().enumerate().with_min_len(2048).for_each(|(edge, score)| {
-        let Some(faces) = topology.face_pair(edge) else {
-            score.0 = 0.0;
-            return;
-        };
-        let facets = faces.map(|face| &samples[facet_of_face[face as usize].0 as usize]);
-        let normal = faces.map(|face| shapes[face as usize].normal);
-        let along = edge_direction(topology, positions, edge);
-        let angle = facet_angle_score(along, facets, normal[0] + normal[1]);
-        score.0 = weighed(angle, facet_curvature_score(facets), curvature_weight);
-    });
+    scores
+        .par_iter_mut()
+        .enumerate()
+        .with_min_len(2048)
+        .for_each(|(edge, score)| {
+            let Some(faces) = topology.face_pair(edge) else {
+                score.0 = 0.0;
+                return;
+            };
+            let facets = faces.map(|face| &samples[facet_of_face[face as usize].0 as usize]);
+            let normal = faces.map(|face| shapes[face as usize].normal);
+            let along = edge_direction(topology, positions, edge);
+            let angle = facet_angle_score(along, facets, normal[0] + normal[1]);
+            score.0 = weighed(angle, facet_curvature_score(facets), curvature_weight);
+        });
 }
 
 fn edge_direction(topology: &Topology, positions: &[Position], edge: usize) -> DVec3 {

@@ -117,7 +117,12 @@ fn runs_along(topology: &Topology, face: u32, from: u32, to: u32) -> bool {
 }
 
 /// An edge is sharp if its faces turn by more than `limit` radians, or if it is no regular edge.
-pub fn sharp_edges(topology: &Topology, angles: &[DihedralAngle], limit: f64, sharp: &mut [SharpEdge]) {
+pub fn sharp_edges(
+    topology: &Topology,
+    angles: &[DihedralAngle],
+    limit: f64,
+    sharp: &mut [SharpEdge],
+) {
     for ((sharp, angle), kind) in sharp.iter_mut().zip(angles).zip(&topology.edge_kind) {
         sharp.0 = *kind != EdgeKind::Regular || angle.0.abs() > limit;
     }

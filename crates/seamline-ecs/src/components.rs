@@ -103,9 +103,20 @@ pub enum ContourState {
 
 // Samples of curvature: facets, or vertices that are not sharp.
 
-/// Sample: what the classifier compares, made of `(|k_min|, k_max)`.
+/// Sample: what the classifier compares, made of `(|k_min|, k_max)`, in steps of [`SampleFeature::STEP`].
 #[derive(Component, Clone, Copy, Debug, Default, PartialEq)]
 pub struct SampleFeature(pub [f64; 2]);
+
+impl SampleFeature {
+    /// Far below any difference that matters, far above rounding: what is equal in exact arithmetic is
+    /// equal here, so that ties are ties.
+    pub const STEP: f64 = 1.0 / (1u64 << 30) as f64;
+
+    /// Rounded to steps.
+    pub fn rounded(values: [f64; 2]) -> Self {
+        Self(values.map(|value| (value / Self::STEP).round() * Self::STEP))
+    }
+}
 
 /// Sample: what it was taken from.
 #[derive(Component, Clone, Copy, Debug, Default)]

@@ -185,7 +185,7 @@ fn gather_samples(world: &mut World) {
         .iter_mut()
         .zip(&samples)
     {
-        feature.0 = sample.curvature;
+        *feature = SampleFeature::rounded(sample.curvature);
     }
     rows::column_mut(world).copy_from_slice(&samples);
     rows::column_mut(world).fill(FaceSample(NONE));

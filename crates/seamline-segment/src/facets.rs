@@ -171,7 +171,7 @@ fn filter(
 /// What is compared of a facet: `ln(1 + c / barely_curved)`, so that a ratio of radii counts alike at any
 /// size.
 pub fn facet_feature(settings: &FacetSettings, sample: &Sample) -> SampleFeature {
-    SampleFeature(
+    SampleFeature::rounded(
         sample
             .curvature
             .map(|c| (c / settings.barely_curved).ln_1p()),

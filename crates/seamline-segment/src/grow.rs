@@ -6,6 +6,7 @@ use seamline_ecs::rows::{self, Regions};
 use seamline_ecs::{Column, Counts, MeshTopology, Stage, StageSystems, StepError, fallible};
 use seamline_mesh::Topology;
 
+use crate::rounding::to_eight_digits;
 use seamline_mesh::Sets;
 
 pub(crate) fn vertex_systems() -> StageSystems {
@@ -298,7 +299,9 @@ fn longest_neighbour(
             None => lengths.push((region, a.distance(b))),
         }
     }
-    let better = |a: &(u32, f64), b: &(u32, f64)| a.1.total_cmp(&b.1).then(b.0.cmp(&a.0));
+    let length = |l: &(u32, f64)| to_eight_digits(l.1);
+    let better =
+        |a: &(u32, f64), b: &(u32, f64)| length(a).total_cmp(&length(b)).then(b.0.cmp(&a.0));
     lengths.into_iter().max_by(better).map(|(region, _)| region)
 }
 

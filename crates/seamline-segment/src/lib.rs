@@ -17,6 +17,7 @@ mod grow;
 mod import;
 mod merge;
 mod region_graph;
+mod rounding;
 mod score;
 mod sharp;
 mod spatial_order;

@@ -14,6 +14,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::facets::FacetSettings;
 use crate::region_graph::{Link, Merged, RegionGraph};
+use crate::rounding::to_eight_digits;
 use seamline_mesh::Sets;
 
 /// How different two neighbouring regions are, `DC` in `D = DC N S`.
@@ -182,13 +183,16 @@ pub fn reduce(
 ) -> (Vec<u32>, Vec<Region>) {
     let mut reduction = Reduction::of(graph, settings, barely_curved, border);
     let wanted = settings.regions as usize;
-    while reduction.left > wanted
-        && let Some(Candidate {
-            distance, regions, ..
-        }) = reduction.shortest()
-        && (wanted > 0 || distance <= settings.threshold)
-    {
-        reduction.merge(regions);
+    while reduction.left > wanted {
+        let tied = reduction.shortest();
+        if tied.is_empty() || (wanted == 0 && tied[0].distance > settings.threshold) {
+            break;
+        }
+        for candidate in tied {
+            if reduction.left > wanted {
+                reduction.merge(candidate.regions);
+            }
+        }
     }
     reduction.finish()
 }
@@ -205,6 +209,8 @@ struct Reduction<'a> {
     stamps: Vec<u32>,
     /// Which regions have become one; each set is named by its lowest.
     sets: Sets,
+    /// The region of the graph that stands for each set.
+    standing: Vec<u32>,
     /// Regions left.
     left: usize,
     /// How much each region has changed since all its links were measured.
@@ -228,6 +234,7 @@ impl<'a> Reduction<'a> {
             heap: BinaryHeap::new(),
             stamps: vec![0; graph.links.len()],
             sets: Sets::new(count),
+            standing: (0..count as u32).collect(),
             left: count,
             changed: vec![0.0; count],
             graph,
@@ -273,9 +280,20 @@ impl<'a> Reduction<'a> {
         }
     }
 
-    /// The shortest link there is, off the heap.
-    fn shortest(&mut self) -> Option<Candidate> {
-        while let Some(candidate) = self.heap.pop() {
+    /// The shortest link there is and all that are as short, off the heap. They are merged at once: on a
+    /// symmetric part an order among equals would come from how the part lies.
+    fn shortest(&mut self) -> Vec<Candidate> {
+        let mut tied: Vec<Candidate> = Vec::new();
+        while let Some(candidate) = self.heap.peek() {
+            if tied
+                .first()
+                .is_some_and(|first| candidate.distance > first.distance)
+            {
+                break;
+            }
+            let Some(candidate) = self.heap.pop() else {
+                break;
+            };
             let [a, b] = candidate.regions;
             let current = self.graph.neighbours[a as usize].get(&b) == Some(&candidate.link);
             if !current || self.stamps[candidate.link as usize] != candidate.stamp {
@@ -283,13 +301,18 @@ impl<'a> Reduction<'a> {
             }
             match self.distance([a, b], candidate.link) {
                 Some(now) if now > candidate.distance => self.measure(a, b, candidate.link),
-                _ => return Some(candidate),
+                _ => tied.push(candidate),
             }
         }
-        None
+        tied
     }
 
-    fn merge(&mut self, [a, b]: [u32; 2]) {
+    /// Makes two regions one, or those they have become part of.
+    fn merge(&mut self, regions: [u32; 2]) {
+        let [a, b] = regions.map(|region| self.standing[self.sets.first(region) as usize]);
+        if a == b {
+            return;
+        }
         let before = [a, b].map(|region| self.graph.regions[region as usize]);
         let Merged {
             kept,
@@ -297,6 +320,7 @@ impl<'a> Reduction<'a> {
             relinked,
         } = self.graph.merge(a, b, self.border);
         self.sets.unite(kept, gone);
+        self.standing[self.sets.first(kept) as usize] = kept;
         self.left -= 1;
 
         let before = if kept == a { before[0] } else { before[1] };
@@ -376,7 +400,8 @@ fn region_distance(
         }
     };
     let small = a.area.min(b.area) < small_below;
-    Some(curvature * nesting * if small { settings.small_factor } else { 1.0 })
+    let favour = if small { settings.small_factor } else { 1.0 };
+    Some(to_eight_digits(curvature * nesting * favour))
 }
 
 fn minus(a: [f64; 2], b: [f64; 2]) -> [f64; 2] {

@@ -40,6 +40,9 @@ impl StepSettings for SharpSettings {
     }
 }
 
+/// Angles come out of coordinates with a few ulps of error.
+const ROUNDING: f64 = 1e-9;
+
 pub(crate) fn systems() -> StageSystems {
     (measure_angles, mark_sharp).chain().in_set(Stage::Sharp)
 }
@@ -116,7 +119,8 @@ fn runs_along(topology: &Topology, face: u32, from: u32, to: u32) -> bool {
     [(a, b), (b, c), (c, a)].contains(&(from, to))
 }
 
-/// An edge is sharp if its faces turn by more than `limit` radians, or if it is no regular edge.
+/// An edge is sharp if its faces turn by more than `limit` radians, or if it is no regular edge. A turn of
+/// just `limit`, as between the sides of a 9-gon at 40 degrees, is not more, however it is rounded.
 pub fn sharp_edges(
     topology: &Topology,
     angles: &[DihedralAngle],
@@ -124,7 +128,7 @@ pub fn sharp_edges(
     sharp: &mut [SharpEdge],
 ) {
     for ((sharp, angle), kind) in sharp.iter_mut().zip(angles).zip(&topology.edge_kind) {
-        sharp.0 = *kind != EdgeKind::Regular || angle.0.abs() > limit;
+        sharp.0 = *kind != EdgeKind::Regular || angle.0.abs() > limit + ROUNDING;
     }
 }
 

@@ -2,19 +2,7 @@
 //! tessellations the `cad` profile is made for.
 
 use seamline_mesh::shapes::{self, Diagonals, Shape};
-use seamline_tests::segment;
-
-/// Do two labellings cut the faces alike, whatever the names?
-fn same_partition(a: &[u32], b: &[u32]) -> bool {
-    let pairs: std::collections::BTreeSet<_> = a.iter().zip(b).collect();
-    let distinct = |labels: &[u32]| {
-        labels
-            .iter()
-            .collect::<std::collections::BTreeSet<_>>()
-            .len()
-    };
-    a.len() == b.len() && pairs.len() == distinct(a) && pairs.len() == distinct(b)
-}
+use seamline_tests::{same_partition, segment};
 
 fn assert_exact(name: &str, shape: &Shape, settings: &[&str]) {
     let found = segment(shape.polygons(), settings);

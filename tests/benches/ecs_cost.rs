@@ -48,17 +48,15 @@ impl Bare {
     }
 
     fn prepare(&mut self, mesh: &Mesh) {
-        let scale =
-            scale_of(mesh, MeshSettings::defaults(Profile::Cad).scale).expect("it has an area");
-        self.length = scale.length;
-        self.topology = Topology::build(mesh.positions().len(), mesh.triangles.clone());
+        let by = MeshSettings::defaults(Profile::Cad).scale;
+        let Laid {
+            scale,
+            mut order,
+            positions,
+        } = lay_out(mesh, by).expect("it has an area");
+        self.topology = Topology::build(positions.len(), std::mem::take(&mut order.triangles));
+        (self.length, self.order, self.positions) = (scale.length, order, positions);
         let [vertices, faces, edges] = self.topology.counts();
-        self.positions.clear();
-        self.positions.extend(
-            mesh.positions()
-                .iter()
-                .map(|&p| Position((p - scale.centre) / scale.length)),
-        );
         self.sharp_vertices.resize(vertices, SharpVertex::default());
         self.shapes.resize(faces, FaceShape::default());
         self.labels.resize(faces, FaceLabel::default());

@@ -2,6 +2,7 @@
 //! meshes where it is present.
 
 pub mod samples;
+pub mod score;
 
 use std::collections::BTreeSet;
 use std::path::PathBuf;

@@ -20,7 +20,7 @@ use crate::spatial_order::SpatialOrder;
 #[serde(deny_unknown_fields)]
 pub struct MeshSettings {
     /// Vertices nearer than this share of the bounding box's diagonal become one. Identical coordinates
-    /// always do. Default 0.
+    /// always do.
     pub weld_share: f64,
     /// What becomes 1 when the mesh is scaled: curvatures are relative to it.
     pub scale: ScaleBy,

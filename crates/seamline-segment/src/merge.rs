@@ -35,18 +35,18 @@ pub enum RegionDistance {
 pub struct MergeSettings {
     /// How different two regions are: `boundary` (paper) or `relative`.
     pub distance: RegionDistance,
-    /// Merging stops when the smallest distance is above this. `lavoue2005`: 5, in curvature of the scaled
-    /// mesh (paper Fig. 10 and 12); `cad`: 0.6, without unit (from .4 to 1 boundary F1 moves by .05).
+    /// Merging stops when the smallest distance is above this. With `boundary` in curvature of the scaled
+    /// mesh (5 in the paper's Fig. 10 and 12); with `relative` without unit (.6 to .7 measure alike).
     pub threshold: f64,
     /// Merging stops at this number of regions instead; 0: the threshold decides.
     pub regions: u32,
-    /// A region below this share of the whole area is small: `A_min` of the paper. Default 0.002; from
-    /// 0.0005 to 0.01 the paper's tables come out alike.
+    /// A region below this share of the whole area is small: `A_min` of the paper. From 0.0005 to
+    /// 0.01 the paper's tables come out alike.
     pub min_area_share: f64,
-    /// Distances of small regions are multiplied by this: `epsilon` of the paper. `lavoue2005`: 1e-5,
-    /// `cad`: 0.2, so that small tangent fillets survive.
+    /// Distances of small regions are multiplied by this: `epsilon` of the paper, 1e-5
+    /// there. At 0.2 small tangent fillets survive.
     pub small_factor: f64,
-    /// Regions whose whole common border is sharp never merge. Default true: the tensor at a sharp edge is
+    /// Regions whose whole common border is sharp never merge: the tensor at a sharp edge is
     /// small where triangles are large, and a coarse cylinder would become one region.
     pub sharp_block: bool,
 }
@@ -168,13 +168,13 @@ impl PartialOrd for Candidate {
 
 /// All links of a region are measured again once it has changed by this much, relatively, since they were
 /// last. A region of ten thousand neighbours that takes them in one by one would else cost the square of
-/// that: 7 s of 12 on 1.7 million triangles. A distance that has grown is noticed in any case; one that
+/// that: 7 s of 16 on a flange of 1.7 million triangles. A distance that has grown is noticed in any case; one that
 /// has shrunk by less than about this is noticed late.
 const MEASURE_AGAIN_AFTER: f64 = 0.01;
 
 /// Reduces the graph. Gives the new number of each region, counted by lowest old one, and what is left.
 ///
-/// Cost: n log n in the number of links.
+/// Cost: n log n in the number of links, as long as regions do not change by much with each merge.
 pub fn reduce(
     graph: RegionGraph,
     settings: &MergeSettings,

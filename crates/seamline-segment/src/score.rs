@@ -18,7 +18,7 @@ use crate::eigen::tangent_principal_frame;
 #[derive(Resource, Clone, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ScoreSettings {
-    /// Weight of the curvature score against the angle score: `omega_c` of the paper. Default 0.5.
+    /// Weight of the curvature score against the angle score: `omega_c` of the paper.
     pub curvature_weight: f64,
 }
 

@@ -14,7 +14,7 @@ use serde::{Deserialize, Serialize};
 #[serde(deny_unknown_fields)]
 pub struct SharpSettings {
     /// An edge is sharp if its faces turn by more than this. Must exceed the tessellator's angular step
-    /// (30 degrees on a 12-gon); Fandisk does not care between 25 and 60. Default 40.
+    /// (30 degrees on a 12-gon); Fandisk does not care between 25 and 60.
     pub angle_deg: f64,
     /// Split triangles with three sharp vertices about their centre while segmenting (paper 4.1). Only
     /// where curvature lies on vertices.

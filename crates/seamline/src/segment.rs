@@ -2,12 +2,11 @@
 
 use std::collections::BTreeMap;
 use std::ffi::OsStr;
-use std::fs;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use anyhow::{Context, Result};
+use anyhow::Result;
 use indicatif::{ProgressBar, ProgressStyle};
 use seamline_ecs::{Segmentation, Worker};
 use seamline_watch::{
@@ -26,8 +25,6 @@ pub fn run(args: &SegmentArgs) -> Result<Outcome> {
         .as_deref()
         .map_or(Ok(WriteSet::ALL), str::parse)?;
     refuse_same_names(&args.meshes)?;
-    fs::create_dir_all(&args.output)
-        .with_context(|| format!("{} cannot be created", args.output.display()))?;
     if pipeline.threads() > 0 {
         rayon::ThreadPoolBuilder::new()
             .num_threads(pipeline.threads())

@@ -25,15 +25,15 @@ pub struct ContourTracking;
 #[derive(Resource, Clone, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ContourTrackingSettings {
-    /// A boundary edge is correct if its score is below this: `ST` of the paper, which has 5. Default 10:
-    /// curved sharp rims score about 5, and at 5 Fandisk loses patches.
+    /// A boundary edge is correct if its score is below this: `ST` of the paper, which has 5.
+    /// Curved sharp rims score about 5, and at 5 Fandisk loses patches.
     pub correct_below_deg: f64,
-    /// Sharp boundary edges are correct whatever their score. Default true.
+    /// Sharp boundary edges are correct whatever their score.
     pub sharp_is_correct: bool,
-    /// A piece of boundary between two junctions without any correct edge is kept whole; else it is
-    /// dropped, as in the paper. Default: `cad` true, `lavoue2005` false.
+    /// A piece of boundary between two junctions without any correct edge is kept whole. Else it is
+    /// dropped, as in the paper.
     pub keep_unmarked: bool,
-    /// Weight of the turn against the score: `omega_theta` of the paper. Default 2.
+    /// Weight of the turn against the score: `omega_theta` of the paper.
     pub turn_weight: f64,
 }
 

@@ -207,6 +207,8 @@ struct Reduction<'a> {
     heap: BinaryHeap<Candidate>,
     /// One a link.
     stamps: Vec<u32>,
+    /// The distance each link is on the heap with; infinite where it is not.
+    on_heap: Vec<f64>,
     /// Which regions have become one; each set is named by its lowest.
     sets: Sets,
     /// The region of the graph that stands for each set.
@@ -233,6 +235,7 @@ impl<'a> Reduction<'a> {
             small_below: settings.min_area_share * total_area,
             heap: BinaryHeap::new(),
             stamps: vec![0; graph.links.len()],
+            on_heap: vec![f64::INFINITY; graph.links.len()],
             sets: Sets::new(count),
             standing: (0..count as u32).collect(),
             left: count,
@@ -266,7 +269,9 @@ impl<'a> Reduction<'a> {
     /// Puts a link on the heap as it is now.
     fn measure(&mut self, a: u32, b: u32, link: u32) {
         self.stamps[link as usize] += 1;
+        self.on_heap[link as usize] = f64::INFINITY;
         if let Some(distance) = self.distance([a, b], link) {
+            self.on_heap[link as usize] = distance;
             let mut names = [self.sets.first(a), self.sets.first(b)];
             names.sort_unstable();
             let stamp = self.stamps[link as usize];
@@ -277,6 +282,15 @@ impl<'a> Reduction<'a> {
                 link,
                 stamp,
             });
+        }
+    }
+
+    /// As [`Self::measure`], if the link has become shorter: one that has grown is noticed when it comes off
+    /// the heap.
+    fn measure_if_shorter(&mut self, a: u32, b: u32, link: u32) {
+        let now = self.distance([a, b], link);
+        if now.is_some_and(|now| now < self.on_heap[link as usize]) {
+            self.measure(a, b, link);
         }
     }
 
@@ -301,7 +315,10 @@ impl<'a> Reduction<'a> {
             }
             match self.distance([a, b], candidate.link) {
                 Some(now) if now > candidate.distance => self.measure(a, b, candidate.link),
-                _ => tied.push(candidate),
+                _ => {
+                    self.on_heap[candidate.link as usize] = f64::INFINITY;
+                    tied.push(candidate);
+                }
             }
         }
         tied
@@ -326,19 +343,20 @@ impl<'a> Reduction<'a> {
         let before = if kept == a { before[0] } else { before[1] };
         let after = self.graph.regions[kept as usize];
         self.changed[kept as usize] += self.change(&before, &after);
-        let again: Vec<(u32, u32)> = if self.changed[kept as usize] > MEASURE_AGAIN_AFTER {
+        for other in relinked {
+            if let Some(&link) = self.graph.neighbours[kept as usize].get(&other) {
+                self.measure(kept, other, link);
+            }
+        }
+        if self.changed[kept as usize] > MEASURE_AGAIN_AFTER {
             self.changed[kept as usize] = 0.0;
-            self.graph.neighbours[kept as usize]
+            let links: Vec<_> = self.graph.neighbours[kept as usize]
                 .iter()
                 .map(|(&other, &link)| (other, link))
-                .collect()
-        } else {
-            let linked =
-                |other: u32| Some((other, *self.graph.neighbours[kept as usize].get(&other)?));
-            relinked.into_iter().filter_map(linked).collect()
-        };
-        for (other, link) in again {
-            self.measure(kept, other, link);
+                .collect();
+            for (other, link) in links {
+                self.measure_if_shorter(kept, other, link);
+            }
         }
     }
 

@@ -23,13 +23,7 @@ impl<T: Component> Deref for Column<'_, '_, T> {
     type Target = [T];
 
     fn deref(&self) -> &[T] {
-        let mut chunks = self
-            .query
-            .contiguous_iter()
-            .expect("components of elements are stored in tables");
-        let column = chunks.next().unwrap_or_default();
-        assert!(chunks.next().is_none(), "one archetype an element kind");
-        column
+        whole(self.query.as_readonly())
     }
 }
 
@@ -47,27 +41,34 @@ impl<T: Component<Mutability = Mutable>> Deref for ColumnMut<'_, '_, T> {
     type Target = [T];
 
     fn deref(&self) -> &[T] {
-        let mut chunks = self
-            .query
-            .contiguous_iter()
-            .expect("components of elements are stored in tables");
-        let column = chunks.next().unwrap_or_default();
-        assert!(chunks.next().is_none(), "one archetype an element kind");
-        column
+        whole(self.query.as_readonly())
     }
 }
 
 impl<T: Component<Mutability = Mutable>> DerefMut for ColumnMut<'_, '_, T> {
     fn deref_mut(&mut self) -> &mut [T] {
-        let mut chunks = self
-            .query
-            .contiguous_iter_mut()
-            .expect("components of elements are stored in tables");
-        let column = chunks
-            .next()
-            .map(|chunk| chunk.into_iter().into_slice())
-            .unwrap_or_default();
-        assert!(chunks.next().is_none(), "one archetype an element kind");
-        column
+        whole_mut(self.query.reborrow())
     }
+}
+
+const IN_TABLES: &str = "components of elements are stored in tables";
+const ONE_ARCHETYPE: &str = "one archetype an element kind";
+
+fn whole<'w, T: Component>(query: Query<'w, '_, &T>) -> &'w [T] {
+    let mut chunks = query.contiguous_iter_inner().expect(IN_TABLES);
+    let column = chunks.next().unwrap_or_default();
+    assert!(chunks.next().is_none(), "{ONE_ARCHETYPE}");
+    column
+}
+
+pub(crate) fn whole_mut<'w, T: Component<Mutability = Mutable>>(
+    query: Query<'w, '_, &mut T>,
+) -> &'w mut [T] {
+    let mut chunks = query.contiguous_iter_inner().expect(IN_TABLES);
+    let column = chunks
+        .next()
+        .map(|chunk| chunk.into_iter().into_slice())
+        .unwrap_or_default();
+    assert!(chunks.next().is_none(), "{ONE_ARCHETYPE}");
+    column
 }

@@ -9,6 +9,7 @@ use bevy_ecs::bundle::NoBundleEffect;
 use bevy_ecs::component::Mutable;
 use bevy_ecs::prelude::*;
 
+use crate::column::whole_mut;
 use crate::components::*;
 
 /// A kind of element: the components each of them has.
@@ -84,16 +85,7 @@ pub fn resize<K: ElementKind>(world: &mut World, count: usize) {
 ///
 /// As [`crate::Column`].
 pub fn column_mut<T: Component<Mutability = Mutable>>(world: &mut World) -> &mut [T] {
-    let mut query = world.query::<&mut T>();
-    let mut chunks = query
-        .contiguous_iter_mut(world)
-        .expect("components of elements are stored in tables");
-    let column = chunks
-        .next()
-        .map(|chunk| chunk.into_iter().into_slice())
-        .unwrap_or_default();
-    assert!(chunks.next().is_none(), "one archetype an element kind");
-    column
+    whole_mut(world.query::<&mut T>().query_mut(world))
 }
 
 #[cfg(test)]

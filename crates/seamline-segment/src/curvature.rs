@@ -12,7 +12,7 @@ use seamline_mesh::Topology;
 use serde::{Deserialize, Serialize};
 
 use crate::eigen::{PrincipalFrame, free_principal_frame, tangent_principal_frame};
-use crate::tensor::{Bending, TensorForm, TensorPair, vertex_tensors};
+use crate::tensor::{Bending, BendingColumns, TensorForm, TensorPair, vertex_tensors};
 
 /// What carries the samples of curvature that are classified.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
@@ -70,22 +70,12 @@ pub(crate) fn systems() -> StageSystems {
 /// Fills the curvature columns of all vertices.
 pub(crate) fn measure_vertices(
     settings: Res<CurvatureSettings>,
-    topology: Res<MeshTopology>,
-    positions: Column<Position>,
-    shapes: Column<FaceShape>,
-    angles: Column<DihedralAngle>,
-    sharp_edges: Column<SharpEdge>,
+    columns: BendingColumns,
     sharp_vertices: Column<SharpVertex>,
     mut full: ColumnMut<VertexCurvature>,
     mut smooth: ColumnMut<SmoothCurvature>,
 ) {
-    let bending = Bending {
-        topology: &topology.0,
-        positions: &positions,
-        shapes: &shapes,
-        angles: &angles,
-        sharp: &sharp_edges,
-    };
+    let bending = columns.lend();
     let tensors = vertex_tensors(&bending, settings.tensor, settings.ball_radius);
     let frames = |pick: fn(&TensorPair) -> &SymmetricTensor| {
         principal_frames(&bending, &sharp_vertices, &tensors, pick)

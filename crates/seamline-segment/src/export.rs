@@ -6,8 +6,7 @@ use seamline_ecs::components::*;
 use seamline_ecs::results::{Boundary, PatchReport, PatchSummary, Segmentation, VertexQuantities};
 use seamline_ecs::rows::{self, Patches};
 use seamline_ecs::{
-    Column, ColumnMut, Counts, InputMesh, MeshScale, MeshTopology, Stage, StageSystems, StepError,
-    fallible,
+    Column, ColumnMut, Counts, InputMesh, MeshScale, Stage, StageSystems, StepError, fallible,
 };
 use seamline_mesh::{EdgeKind, Mesh, examine};
 
@@ -16,7 +15,7 @@ use crate::curvature::principal_frames;
 use crate::eigen::free_principal_frame;
 use crate::face_patches::{FacePatches, number_patches};
 use crate::spatial_order::SpatialOrder;
-use crate::tensor::{Bending, TensorForm, face_tensors, over, vertex_tensors};
+use crate::tensor::{Bending, BendingColumns, TensorForm, face_tensors, over, vertex_tensors};
 
 pub(crate) fn systems() -> StageSystems {
     (fallible(check_labels), number, collect.pipe(make_rows))
@@ -53,23 +52,13 @@ fn collect(
     order: Res<SpatialOrder>,
     patches: Res<FacePatches>,
     scale: Res<MeshScale>,
-    topology: Res<MeshTopology>,
-    positions: Column<Position>,
-    shapes: Column<FaceShape>,
-    angles: Column<DihedralAngle>,
-    sharp: Column<SharpEdge>,
+    columns: BendingColumns,
     sharp_vertices: Column<SharpVertex>,
     facet_of_face: Column<FaceSample>,
     samples: Column<Sample>,
     labels: Column<FaceLabel>,
 ) -> Segmentation {
-    let bending = Bending {
-        topology: &topology.0,
-        positions: &positions,
-        shapes: &shapes,
-        angles: &angles,
-        sharp: &sharp,
-    };
+    let bending = columns.lend();
     let curvatures = face_curvatures(&bending, &facet_of_face, &samples);
     let rows = LabelledRows {
         bending,

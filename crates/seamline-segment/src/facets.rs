@@ -15,7 +15,7 @@ use seamline_ecs::{Column, ColumnMut, Counts, MeshTopology, Stage, StageSystems}
 use serde::{Deserialize, Serialize};
 
 use crate::eigen::tangent_principal_frame;
-use crate::tensor::{Bending, add_scaled, face_tensors, over};
+use crate::tensor::{Bending, BendingColumns, add_scaled, face_tensors, over};
 use seamline_mesh::{Sets, Topology};
 
 /// The `[facets]` table: curvature on facets.
@@ -121,22 +121,8 @@ pub fn find_facets(bending: &Bending, flat: f64) -> Facets {
     }
 }
 
-fn measure(
-    settings: Res<FacetSettings>,
-    topology: Res<MeshTopology>,
-    positions: Column<Position>,
-    shapes: Column<FaceShape>,
-    angles: Column<DihedralAngle>,
-    sharp: Column<SharpEdge>,
-) -> Facets {
-    let bending = Bending {
-        topology: &topology.0,
-        positions: &positions,
-        shapes: &shapes,
-        angles: &angles,
-        sharp: &sharp,
-    };
-    find_facets(&bending, settings.flat_deg.to_radians())
+fn measure(settings: Res<FacetSettings>, columns: BendingColumns) -> Facets {
+    find_facets(&columns.lend(), settings.flat_deg.to_radians())
 }
 
 fn make_rows(In(facets): In<Facets>, world: &mut World) {

@@ -107,26 +107,32 @@ pub fn facet_scores(
     curvature_weight: f64,
     scores: &mut [BoundaryScore],
 ) {
+    score_edges(topology, positions, scores, |_, faces, along| {
+        let facets = faces.map(|face| &samples[facet_of_face[face as usize].0 as usize]);
+        let normal = faces.map(|face| shapes[face as usize].normal);
+        let angle = facet_angle_score(along, facets, normal[0] + normal[1]);
+        weighed(angle, facet_curvature_score(facets), curvature_weight)
+    });
+}
+
+/// Fills the scores: `score` is asked for edges with two faces, by edge, faces and unit direction; others
+/// have 0.
+fn score_edges(
+    topology: &Topology,
+    positions: &[Position],
+    scores: &mut [BoundaryScore],
+    score: impl Fn(u32, [u32; 2], DVec3) -> f64 + Sync,
+) {
     scores
         .par_iter_mut()
         .enumerate()
         .with_min_len(2048)
-        .for_each(|(edge, score)| {
-            let Some(faces) = topology.face_pair(edge) else {
-                score.0 = 0.0;
-                return;
-            };
-            let facets = faces.map(|face| &samples[facet_of_face[face as usize].0 as usize]);
-            let normal = faces.map(|face| shapes[face as usize].normal);
-            let along = edge_direction(topology, positions, edge);
-            let angle = facet_angle_score(along, facets, normal[0] + normal[1]);
-            score.0 = weighed(angle, facet_curvature_score(facets), curvature_weight);
+        .for_each(|(edge, to)| {
+            to.0 = topology.face_pair(edge).map_or(0.0, |faces| {
+                let [a, b] = topology.edge_vertices[edge].map(|v| positions[v as usize].0);
+                score(edge as u32, faces, (b - a).normalize_or_zero())
+            });
         });
-}
-
-fn edge_direction(topology: &Topology, positions: &[Position], edge: usize) -> DVec3 {
-    let [a, b] = topology.edge_vertices[edge].map(|v| positions[v as usize].0);
-    (b - a).normalize_or_zero()
 }
 
 /// The score of every edge from the curvature at its ends and at the vertices across. 0 at borders and
@@ -138,30 +144,20 @@ pub fn vertex_scores(
     curvature_weight: f64,
     scores: &mut [BoundaryScore],
 ) {
-    scores
-        .par_iter_mut()
-        .enumerate()
-        .with_min_len(2048)
-        .for_each(|(edge, score)| {
-            let Some(faces) = topology.face_pair(edge) else {
-                score.0 = 0.0;
-                return;
-            };
-            let along = edge_direction(topology, positions, edge);
-            let ends = topology.edge_vertices[edge].map(|v| &curvatures[v as usize]);
-            let across = faces
-                .map(|face| curvatures[topology.opposite_vertex(face, edge as u32) as usize].k);
-            let angle = ends
-                .map(|end| angle_score(along, end, NO_DIRECTION))
-                .iter()
-                .sum::<f64>()
-                / 2.0;
-            score.0 = weighed(
-                angle,
-                curvature_score(ends.map(|end| end.k), across),
-                curvature_weight,
-            );
-        });
+    score_edges(topology, positions, scores, |edge, faces, along| {
+        let ends = topology.edge_vertices[edge as usize].map(|v| &curvatures[v as usize]);
+        let across = faces.map(|face| curvatures[topology.opposite_vertex(face, edge) as usize].k);
+        let angle = ends
+            .map(|end| angle_score(along, end, NO_DIRECTION))
+            .iter()
+            .sum::<f64>()
+            / 2.0;
+        weighed(
+            angle,
+            curvature_score(ends.map(|end| end.k), across),
+            curvature_weight,
+        )
+    });
 }
 
 fn weighed(angle: f64, curvature: f64, weight: f64) -> f64 {

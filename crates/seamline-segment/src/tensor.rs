@@ -3,10 +3,13 @@
 //! An edge bends the surface by its dihedral angle over its length: `E_e = beta |e| e eᵀ`. A face gets half
 //! of each of its edges, `F_t = ½ Σ E_e`, and `T_t = F_t / A_t` is its curvature. Convex is positive.
 
+use bevy_ecs::prelude::*;
+use bevy_ecs::system::SystemParam;
 use glam::DVec3;
 use rayon::prelude::*;
 use schemars::JsonSchema;
 use seamline_ecs::components::{DihedralAngle, FaceShape, Position, SharpEdge, SymmetricTensor};
+use seamline_ecs::{Column, MeshTopology};
 use seamline_mesh::Topology;
 use serde::{Deserialize, Serialize};
 
@@ -72,6 +75,28 @@ pub struct Bending<'a> {
     pub angles: &'a [DihedralAngle],
     /// One an edge.
     pub sharp: &'a [SharpEdge],
+}
+
+/// The columns and resources a [`Bending`] is lent from.
+#[derive(SystemParam)]
+pub(crate) struct BendingColumns<'w, 's> {
+    topology: Res<'w, MeshTopology>,
+    positions: Column<'w, 's, Position>,
+    shapes: Column<'w, 's, FaceShape>,
+    angles: Column<'w, 's, DihedralAngle>,
+    sharp: Column<'w, 's, SharpEdge>,
+}
+
+impl BendingColumns<'_, '_> {
+    pub(crate) fn lend(&self) -> Bending<'_> {
+        Bending {
+            topology: &self.topology.0,
+            positions: &self.positions,
+            shapes: &self.shapes,
+            angles: &self.angles,
+            sharp: &self.sharp,
+        }
+    }
 }
 
 impl Bending<'_> {

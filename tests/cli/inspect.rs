@@ -62,7 +62,7 @@ fn plugins_lists_what_can_fill_each_stage_with_its_settings() {
         assert!(words.contains(word), "{word}: {words}");
     }
     let json: Value = serde_json::from_str(&home.run("plugins --json").ended(0).out).expect("JSON");
-    let listed: Vec<_> = json
+    let listed: Vec<_> = json["plugins"]
         .as_array()
         .expect("a list")
         .iter()
@@ -76,7 +76,25 @@ fn plugins_lists_what_can_fill_each_stage_with_its_settings() {
             "{name}: {listed:?}"
         );
     }
-    for plugin in json.as_array().expect("a list") {
+    let steps = json["steps"].as_array().expect("a list");
+    for name in [
+        "pipeline",
+        "mesh",
+        "sharp",
+        "curvature",
+        "facets",
+        "merge",
+        "score",
+    ] {
+        assert!(steps.iter().any(|step| step["name"] == name), "{name}");
+        assert!(words.contains(&format!("  {name}\n")), "{name}");
+    }
+    for plugin in json["plugins"]
+        .as_array()
+        .expect("a list")
+        .iter()
+        .chain(steps)
+    {
         let keys = plugin["schema"]["properties"]
             .as_object()
             .expect("a schema")

@@ -5,6 +5,7 @@ mod demo;
 mod home;
 mod inspect;
 mod outputs;
+mod robust;
 mod settings;
 mod several;
 mod threads;

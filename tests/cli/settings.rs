@@ -97,7 +97,7 @@ fn wrong_use_ends_with_2_names_what_was_meant_and_writes_nothing() {
     let mut environment = home.command("segment bracket.obj -o out");
     let ran = seamline_tests::run(environment.env("SEAMLINE_CLASSIFER", "kmeans")).ended(2);
     assert!(
-        ran.err.contains("did you mean `classifier`?"),
+        ran.err.contains("did you mean `SEAMLINE_CLASSIFIER`?"),
         "{}",
         ran.err
     );

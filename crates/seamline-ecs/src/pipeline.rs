@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 use toml::{Table, Value};
 
 use crate::plugin::{PluginEntry, Registry, SwappableStage};
-use crate::settings::{self, Profile, SettingsError, SettingsTable, StepSettings};
+use crate::settings::{self, OutOfRange, Profile, SettingsError, SettingsTable, StepSettings};
 
 /// Puts systems into a schedule and their settings into its world.
 pub type InstallStep = Arc<dyn Fn(&mut World, &mut Schedule) + Send + Sync>;
@@ -37,6 +37,11 @@ impl StepSettings for PipelineSettings {
             rectifier: String::new(),
             threads: 0,
         }
+    }
+
+    fn check(&self) -> Result<(), OutOfRange> {
+        let holds = self.threads <= 256;
+        OutOfRange::unless(holds, "threads", "a number from 0 (all there are) to 256")
     }
 }
 

@@ -123,7 +123,9 @@ impl Registry {
         let of_stage = || self.entries.iter().filter(|entry| entry.stage == stage);
         of_stage().find(|entry| entry.name == name).ok_or_else(|| {
             let key = format!("pipeline.{}", stage.key());
-            SettingsError::unknown(key, stage.key(), name, of_stage().map(|entry| entry.name))
+            let nothing = (stage == SwappableStage::Rectify).then_some("none");
+            let known = of_stage().map(|entry| entry.name).chain(nothing);
+            SettingsError::unknown(key, stage.key(), name, known)
         })
     }
 }

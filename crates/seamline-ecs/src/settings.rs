@@ -139,7 +139,11 @@ pub fn read<S: StepSettings>(in_force: &Table) -> Result<S, SettingsError> {
         .cloned()
         .unwrap_or_else(|| Value::Table(Table::new()));
     let settings: S = table.try_into().map_err(|e: toml::de::Error| {
-        SettingsError::new(S::TABLE, one_line(e.message()), "see `seamline plugins`")
+        SettingsError::new(
+            S::TABLE,
+            one_line(e.message()),
+            "see `seamline plugins` and `seamline config schema`",
+        )
     })?;
     settings.check().map_err(|OutOfRange { key, wants }| {
         SettingsError::new(
@@ -169,9 +173,38 @@ pub fn resolve(
         .collect();
     overlay(&mut in_force, given, "")?;
     for table in known {
-        (table.check)(&in_force)?;
+        (table.check)(&in_force).map_err(|error| blame(table, profile, given, error))?;
     }
     Ok(in_force)
+}
+
+/// An error told of a table as a whole, such as a word that is none of those allowed, told of the key that is
+/// refused on its own.
+fn blame(
+    table: &SettingsTable,
+    profile: Profile,
+    given: &Table,
+    error: SettingsError,
+) -> SettingsError {
+    let given = given.get(table.name).and_then(Value::as_table);
+    if error.key != table.name {
+        return error;
+    }
+    let alone = |(key, value): (&String, &Value)| {
+        let mut only = (table.defaults)(profile);
+        only.insert(key.clone(), value.clone());
+        let only = Table::from_iter([(table.name.to_owned(), Value::Table(only))]);
+        (table.check)(&only)
+            .err()
+            .filter(|refused| refused.key == table.name)
+            .map(|refused| SettingsError {
+                key: format!("{}.{key}", table.name),
+                ..refused
+            })
+    };
+    given
+        .and_then(|given| given.iter().find_map(alone))
+        .unwrap_or(error)
 }
 
 fn overlay(base: &mut Table, given: &Table, prefix: &str) -> Result<(), SettingsError> {
@@ -189,6 +222,13 @@ fn overlay(base: &mut Table, given: &Table, prefix: &str) -> Result<(), Settings
         match (known, value) {
             (Value::Table(known), Value::Table(value)) => {
                 overlay(known, value, &format!("{dotted}."))?
+            }
+            (_, Value::Float(number)) if !number.is_finite() => {
+                return Err(SettingsError::new(
+                    dotted,
+                    format!("is {number}"),
+                    "wants a finite number",
+                ));
             }
             (known @ Value::Float(_), Value::Integer(whole)) => {
                 *known = Value::Float(*whole as f64)

@@ -47,7 +47,8 @@ struct StageClock {
 impl Worker {
     /// A worker for `pipeline`, with no rows yet.
     pub fn new(pipeline: Arc<Pipeline>) -> Self {
-        let pool = (pipeline.threads() > 0)
+        let threads = [0, rayon::current_num_threads()];
+        let pool = (!threads.contains(&pipeline.threads()))
             .then(|| {
                 ThreadPoolBuilder::new()
                     .num_threads(pipeline.threads())

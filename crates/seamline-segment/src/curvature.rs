@@ -54,9 +54,9 @@ impl StepSettings for CurvatureSettings {
 
     fn check(&self) -> Result<(), OutOfRange> {
         OutOfRange::unless(
-            self.ball_radius > 0.0 && self.ball_radius <= 2.0,
+            self.ball_radius > 0.0 && self.ball_radius <= 0.5,
             "ball_radius",
-            "a radius above 0 and at most 2 (1: as large as the part)",
+            "a radius above 0 and at most 0.5 (half the part)",
         )
     }
 }

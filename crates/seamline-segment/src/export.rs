@@ -8,7 +8,7 @@ use seamline_ecs::rows::{self, Patches};
 use seamline_ecs::{
     Column, ColumnMut, Counts, InputMesh, MeshScale, Stage, StageSystems, StepError, fallible,
 };
-use seamline_mesh::{EdgeKind, Mesh, examine};
+use seamline_mesh::{EdgeKind, Findings, Mesh, Topology, examine};
 
 use crate::boundaries::chains;
 use crate::curvature::principal_frames;
@@ -96,9 +96,20 @@ pub fn describe(mesh: &Mesh, rows: &LabelledRows, patches: &FacePatches) -> Segm
         patches: with_neighbours(summaries, &boundaries),
         boundaries,
         vertices: vertex_quantities(rows),
-        findings: examine(mesh, rows.bending.topology),
+        findings: findings(mesh, rows.bending.topology),
         stages: Vec::new(),
     }
+}
+
+/// What the mesh is as it came, triangles that are there twice included.
+fn findings(mesh: &Mesh, rows: &Topology) -> Findings {
+    if rows.triangles.len() == mesh.triangles.len() {
+        return examine(mesh, rows);
+    }
+    examine(
+        mesh,
+        &Topology::build(mesh.positions().len(), mesh.triangles.clone()),
+    )
 }
 
 fn make_rows(In(segmentation): In<Segmentation>, world: &mut World) {
@@ -179,10 +190,27 @@ fn boundaries(rows: &LabelledRows) -> Vec<Boundary> {
     } = rows;
     let topology = bending.topology;
     let mut edges: Vec<([u32; 2], u32)> = Vec::new();
-    for (edge, faces) in topology.edge_faces.iter().enumerate() {
-        if topology.edge_kind[edge] == EdgeKind::Border {
-            continue;
+    let mut crowded: Vec<(u32, u32)> = Vec::new();
+    for (face, around) in topology.face_edges.iter().enumerate() {
+        let non_manifold = |e: &&u32| topology.edge_kind[**e as usize] == EdgeKind::NonManifold;
+        crowded.extend(
+            around
+                .iter()
+                .filter(non_manifold)
+                .map(|&edge| (edge, labels[face].0)),
+        );
+    }
+    crowded.sort_unstable();
+    crowded.dedup();
+    for patches in crowded.chunk_by(|a, b| a.0 == b.0) {
+        for (i, &(edge, a)) in patches.iter().enumerate() {
+            edges.extend(patches[i + 1..].iter().map(|&(_, b)| ([a, b], edge)));
         }
+    }
+    for edge in 0..topology.edge_faces.len() {
+        let Some(faces) = topology.face_pair(edge) else {
+            continue;
+        };
         let [a, b] = faces.map(|face| labels[face as usize].0);
         if a != b {
             edges.push(([a.min(b), a.max(b)], edge as u32));

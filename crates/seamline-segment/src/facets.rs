@@ -52,12 +52,17 @@ impl StepSettings for FacetSettings {
         OutOfRange::unless(
             (0.0..90.0).contains(&self.flat_deg),
             "flat_deg",
-            "an angle from 0 to 90 degrees",
+            "an angle from 0 to below 90 degrees",
         )?;
         OutOfRange::unless(
             (0.0..1.0).contains(&self.similar_area_share),
             "similar_area_share",
-            "a share from 0 to 1",
+            "a share from 0 to below 1",
+        )?;
+        OutOfRange::unless(
+            self.median_rounds <= 100,
+            "median_rounds",
+            "a number from 0 to 100",
         )?;
         OutOfRange::unless(
             self.barely_curved > 0.0,

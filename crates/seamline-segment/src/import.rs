@@ -55,7 +55,7 @@ impl StepSettings for MeshSettings {
         OutOfRange::unless(
             (0.0..0.1).contains(&self.weld_share),
             "weld_share",
-            "a share from 0 to 0.1",
+            "a share from 0 to below 0.1",
         )
     }
 }
@@ -67,6 +67,14 @@ pub(crate) fn systems() -> StageSystems {
 fn import(world: &mut World) -> Result<(), StepError> {
     let mesh = world.resource::<InputMesh>().0.clone();
     let by = world.resource::<MeshSettings>().scale;
+    let [low, high] = mesh.bounding_box();
+    let side = (high - low).max_element();
+    if side > 0.0 && !PART_SIZES.contains(&side) {
+        return Err(StepError::new(
+            format!("the part is {side:e} long"),
+            "sizes from 1e-70 to 1e70 can be computed with; export it in another unit",
+        ));
+    }
     let Laid {
         scale,
         mut order,
@@ -93,6 +101,9 @@ fn import(world: &mut World) -> Result<(), StepError> {
     world.insert_resource(MeshTopology(topology));
     Ok(())
 }
+
+/// Longest side of the bounding box, in the file's unit: beyond, volumes overflow or vanish.
+const PART_SIZES: std::ops::RangeInclusive<f64> = 1e-70..=1e70;
 
 /// A mesh in rows.
 #[derive(Clone, Debug)]

@@ -23,6 +23,7 @@ use tracing::{error, info, warn};
 use crate::config::{After, Config};
 use crate::events::Events;
 use crate::outputs::sweep_leftovers;
+use crate::shown;
 use backlog::Backlog;
 use crew::Crew;
 use job::Outcome;
@@ -220,11 +221,14 @@ impl Books {
     fn enter(&mut self, outcome: Result<Outcome, RecvError>) -> Result<(), WatchError> {
         let outcome = outcome.map_err(|_| WatchError::CrewLost)?;
         self.backlog.ended(&outcome.job().path);
-        let path = outcome.job().path.display();
+        let path = shown(&outcome.job().path);
         match &outcome {
             Outcome::Done { patches, took, .. } => {
                 self.summary.done += 1;
-                info!("{path}: {patches} patches in {:.2} s", took.as_secs_f64());
+                info!(
+                    "{path}: cut in {:.2} s, patches: {patches}",
+                    took.as_secs_f64()
+                );
             }
             Outcome::Failed {
                 failure,

@@ -15,6 +15,7 @@ pub mod outputs;
 pub mod quarantine;
 pub mod relocate;
 pub mod scan;
+mod shown;
 pub mod tracker;
 
 pub use config::{Config, ConfigError, ConfigFile};
@@ -22,6 +23,7 @@ pub use daemon::{RunOptions, Summary, WatchError, run};
 pub use load::{LoadError, LoadedMesh, load, weld_share};
 pub use outputs::{JobFacts, OutputError, WriteSet, report, write_results};
 pub use scan::scan;
+pub use shown::shown;
 
 /// The version of the program, as reports name it.
 pub const VERSION: &str = env!("CARGO_PKG_VERSION");

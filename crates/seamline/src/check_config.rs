@@ -5,26 +5,26 @@ use seamline_watch::{Config, ConfigFile};
 
 use crate::args::ConfigCommand;
 use crate::outcome::Outcome;
+use crate::say::print;
 use crate::settings::{pipeline_of_file, pipeline_tables};
+use seamline_watch::shown;
 
 /// Checks or prints.
 pub fn run(command: &ConfigCommand) -> Result<Outcome> {
     match command {
         ConfigCommand::Schema => {
-            println!(
-                "{}",
-                serde_json::to_string_pretty(&seamline_watch::config::schema(&pipeline_tables()))?
-            );
+            let schema = seamline_watch::config::schema(&pipeline_tables());
+            print(&serde_json::to_string_pretty(&schema)?)?;
         }
         ConfigCommand::Check { config } => {
             let file = ConfigFile::read(config, &pipeline_tables())?;
             let pipeline = pipeline_of_file(&file)?;
-            let config_in_force = Config::from_file(&file)?;
-            for watched in &config_in_force.watch {
-                println!("watches {}", watched.root.display());
+            let config = Config::from_file(&file)?;
+            for watched in &config.watch {
+                print(&format_args!("watches {}", shown(&watched.root)))?;
             }
-            println!("writes to {}", config_in_force.output.display());
-            println!("{}", pipeline.settings_in_force());
+            print(&format_args!("writes to {}", shown(&config.output)))?;
+            print(pipeline.settings_in_force())?;
         }
     }
     Ok(Outcome::Done)

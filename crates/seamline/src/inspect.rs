@@ -7,6 +7,8 @@ use serde_json::json;
 
 use crate::args::InspectArgs;
 use crate::outcome::{Outcome, say_failure};
+use crate::say::print;
+use seamline_watch::shown;
 
 /// Says what every mesh named is; one that cannot be read is told and the others go on.
 pub fn run(args: &InspectArgs) -> Result<Outcome> {
@@ -25,14 +27,11 @@ pub fn run(args: &InspectArgs) -> Result<Outcome> {
         let findings = examine(mesh, &topology);
         if args.json {
             let format = loaded.format.name();
-            println!(
-                "{}",
-                json!({ "path": path, "format": format, "findings": findings })
-            );
+            print(&json!({ "path": path, "format": format, "findings": findings }))?;
         } else {
-            println!("{} ({})", path.display(), loaded.format.name());
+            print(&format_args!("{} ({})", shown(path), loaded.format.name()))?;
             for line in findings.lines() {
-                println!("  {line}");
+                print(&format_args!("  {line}"))?;
             }
         }
     }

@@ -1,5 +1,7 @@
 //! `seamline plugins`: each swappable stage, what can fill it, and its settings.
 
+use std::io;
+
 use anyhow::Result;
 use seamline_ecs::settings::{Profile, SettingsTable};
 use seamline_ecs::{PluginEntry, SwappableStage};
@@ -7,47 +9,86 @@ use serde_json::{Value, json};
 
 use crate::args::PluginsArgs;
 use crate::outcome::Outcome;
+use crate::say::print;
+use crate::settings::pipeline_tables;
 
 const STAGES: [SwappableStage; 2] = [SwappableStage::Classify, SwappableStage::Rectify];
 
-/// Lists all plugins.
+/// Lists all plugins and the settings of every step.
 pub fn run(args: &PluginsArgs) -> Result<Outcome> {
     let registry = seamline_plugins::registry();
+    let is_plugin = |table: &SettingsTable| {
+        registry
+            .entries()
+            .iter()
+            .any(|entry| entry.name == table.name)
+    };
+    let builtin: Vec<_> = pipeline_tables()
+        .into_iter()
+        .filter(|table| !is_plugin(table))
+        .collect();
     if args.json {
-        let listed: Vec<_> = registry.entries().iter().map(as_json).collect();
-        println!("{}", serde_json::to_string_pretty(&listed)?);
+        let plugins: Vec<_> = registry.entries().iter().map(as_json).collect();
+        let steps: Vec<_> = builtin.iter().map(table_as_json).collect();
+        print(&serde_json::to_string_pretty(
+            &json!({ "plugins": plugins, "steps": steps }),
+        )?)?;
         return Ok(Outcome::Done);
     }
     for stage in STAGES {
-        println!("{} (--{}):", stage.stage().name(), stage.key());
+        print(&format_args!(
+            "{} (--{}):",
+            stage.stage().name(),
+            stage.key()
+        ))?;
         for entry in registry
             .entries()
             .iter()
             .filter(|entry| entry.stage == stage)
         {
-            println!("  {}  {}", entry.name, entry.summary);
-            for (key, about, [cad, lavoue2005]) in keys(&entry.settings) {
-                println!("      {}.{key}", entry.name);
-                println!("          {about}");
-                println!("          cad: {cad}, lavoue2005: {lavoue2005}");
-            }
+            print(&format_args!("  {}  {}", entry.name, entry.summary))?;
+            print_keys(&entry.settings)?;
         }
         if stage == SwappableStage::Rectify {
-            println!("  none  leaves the boundaries as merging made them");
+            print(&"  none  leaves the boundaries as merging made them")?;
         }
+    }
+    print(&"built-in steps:")?;
+    for table in &builtin {
+        print(&format_args!("  {}", table.name))?;
+        print_keys(table)?;
     }
     Ok(Outcome::Done)
 }
 
+fn print_keys(table: &SettingsTable) -> io::Result<()> {
+    for (key, about, [cad, lavoue2005]) in keys(table) {
+        print(&format_args!("      {}.{key}", table.name))?;
+        print(&format_args!("          {about}"))?;
+        let default = if cad == lavoue2005 {
+            cad
+        } else {
+            format!("cad {cad}, lavoue2005 {lavoue2005}")
+        };
+        print(&format_args!("          default: {default}"))?;
+    }
+    Ok(())
+}
+
 fn as_json(entry: &PluginEntry) -> Value {
+    let mut json = table_as_json(&entry.settings);
+    json["stage"] = json!(entry.stage);
+    json["summary"] = json!(entry.summary);
+    json
+}
+
+fn table_as_json(table: &SettingsTable) -> Value {
     json!({
-        "stage": entry.stage,
-        "name": entry.name,
-        "summary": entry.summary,
-        "schema": (entry.settings.schema)(),
+        "name": table.name,
+        "schema": (table.schema)(),
         "defaults": {
-            "cad": (entry.settings.defaults)(Profile::Cad),
-            "lavoue2005": (entry.settings.defaults)(Profile::Lavoue2005),
+            "cad": (table.defaults)(Profile::Cad),
+            "lavoue2005": (table.defaults)(Profile::Lavoue2005),
         },
     })
 }

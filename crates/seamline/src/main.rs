@@ -5,6 +5,7 @@ mod check_config;
 mod inspect;
 mod list_plugins;
 mod outcome;
+mod say;
 mod segment;
 mod settings;
 mod watch;

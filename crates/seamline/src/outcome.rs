@@ -7,6 +7,9 @@ use std::process::ExitCode;
 use seamline_ecs::settings::SettingsError;
 use seamline_watch::ConfigError;
 
+use crate::say::say;
+use seamline_watch::shown;
+
 /// How a command ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Outcome {
@@ -60,10 +63,10 @@ pub struct WrongUse(pub String);
 
 /// One line on standard error.
 pub fn say_error(line: &str) {
-    eprintln!("error: {line}");
+    say(&format_args!("error: {line}"));
 }
 
 /// One line for an input that failed: file, reason, what would be right.
 pub fn say_failure(file: &Path, reason: &dyn Display, hint: &str) {
-    say_error(&format!("{}: {reason}; {hint}", file.display()));
+    say_error(&format!("{}: {reason}; {hint}", shown(file)));
 }

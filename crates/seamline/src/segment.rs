@@ -2,20 +2,24 @@
 
 use std::collections::BTreeMap;
 use std::ffi::OsStr;
-use std::io::{self, Write};
+use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use anyhow::Result;
 use indicatif::{ProgressBar, ProgressStyle};
+use seamline_ecs::results::StageRecord;
 use seamline_ecs::{Segmentation, Worker};
+use seamline_watch::outputs::sweep_leftovers;
 use seamline_watch::{
     JobFacts, LoadedMesh, VERSION, WriteSet, load, report, weld_share, write_results,
 };
 
 use crate::args::SegmentArgs;
 use crate::outcome::{Outcome, WrongUse, say_failure};
+use crate::say::{counted, print, say};
 use crate::settings::pipeline_of_args;
+use seamline_watch::shown;
 
 /// Cuts every mesh named; one that fails is told and the others go on.
 pub fn run(args: &SegmentArgs) -> Result<Outcome> {
@@ -25,6 +29,14 @@ pub fn run(args: &SegmentArgs) -> Result<Outcome> {
         .as_deref()
         .map_or(Ok(WriteSet::ALL), str::parse)?;
     refuse_same_names(&args.meshes)?;
+    if args.output.exists() && !args.output.is_dir() {
+        let output = shown(&args.output);
+        return Err(WrongUse(format!(
+            "-o {output}: is not a folder; name one, or a name that is free"
+        ))
+        .into());
+    }
+    sweep_leftovers(&args.output);
     if pipeline.threads() > 0 {
         rayon::ThreadPoolBuilder::new()
             .num_threads(pipeline.threads())
@@ -60,8 +72,11 @@ pub fn run(args: &SegmentArgs) -> Result<Outcome> {
                 reason: e.to_string(),
                 hint: e.hint().to_owned(),
             })?;
-            bar.suspend(|| tell(args, path, &place, &loaded, &segmentation, &about));
-            Ok(())
+            bar.suspend(|| tell(args, path, &place, &loaded, &segmentation, &about))
+                .map_err(|e| Failure {
+                    reason: format!("its report cannot be printed: {e}"),
+                    hint: "check where standard output goes".to_owned(),
+                })
         });
         if let Err(Failure { reason, hint }) = done {
             failures += 1;
@@ -103,41 +118,43 @@ fn tell(
     loaded: &LoadedMesh,
     segmentation: &Segmentation,
     about: &JobFacts,
-) {
+) -> io::Result<()> {
     if args.json {
-        // A reader that has gone away has seen enough.
-        let _ = writeln!(
-            io::stdout(),
-            "{}",
-            report(&loaded.mesh, segmentation, about)
-        );
+        print(&report(&loaded.mesh, segmentation, about))?;
     }
     if args.said.quiet {
-        return;
+        return Ok(());
     }
-    eprintln!(
-        "{}: {} patches of {} faces -> {}",
-        path.display(),
-        segmentation.patches.len(),
-        segmentation.face_patches.len(),
-        place.display()
-    );
+    let patches = counted(segmentation.patches.len(), "patch", "patches");
+    let faces = counted(segmentation.face_patches.len(), "face", "faces");
+    say(&format_args!(
+        "{}: {patches} of {faces} -> {}",
+        shown(path),
+        shown(place)
+    ));
     if args.said.verbose {
-        eprintln!("  {:<10} {:>9.3} s", "read", about.read_seconds);
-        for stage in &segmentation.stages {
-            let counts: Vec<_> = stage
-                .counts
+        say(&format_args!(
+            "  {:<10} {:>9.3} s",
+            "read", about.read_seconds
+        ));
+        for StageRecord {
+            stage,
+            seconds,
+            counts,
+        } in &segmentation.stages
+        {
+            let counts: Vec<_> = counts
                 .iter()
                 .map(|(name, n)| format!("{name} {n}"))
                 .collect();
-            eprintln!(
-                "  {:<10} {:>9.3} s  {}",
-                stage.stage.name(),
-                stage.seconds,
+            say(&format_args!(
+                "  {:<10} {seconds:>9.3} s  {}",
+                stage.name(),
                 counts.join(", ")
-            );
+            ));
         }
     }
+    Ok(())
 }
 
 /// Results are named by their input's file name, so that two inputs of one name would end in one folder.

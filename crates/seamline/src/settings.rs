@@ -1,10 +1,11 @@
 //! Settings of the pipeline from file, environment and command line, in rising order of weight.
 
 use std::env;
+use std::ffi::OsString;
 
 use anyhow::Result;
-use seamline_ecs::settings::{SettingsError, SettingsTable, set_dotted};
-use seamline_ecs::{Pipeline, tables};
+use seamline_ecs::settings::{Profile, SettingsError, SettingsTable, StepSettings, set_dotted};
+use seamline_ecs::{Pipeline, PipelineSettings, tables};
 use seamline_segment::builtin_steps;
 use seamline_watch::ConfigFile;
 use toml::Table;
@@ -19,30 +20,32 @@ pub fn pipeline_tables() -> Vec<SettingsTable> {
     tables(&builtin_steps(), &seamline_plugins::registry())
 }
 
-/// A pipeline under settings from a file, with the environment laid over them.
-pub fn pipeline_of_file(file: &ConfigFile) -> Result<Pipeline> {
-    let given = file.pipeline_settings();
-    let registry = seamline_plugins::registry();
-    // Alone first, so that its mistakes are told with their line.
-    Pipeline::assemble(&builtin_steps(), &registry, &given).map_err(|e| file.locate(e))?;
-    let mut given = given;
-    lay_environment_over(&mut given, env::vars())?;
-    Ok(Pipeline::assemble(&builtin_steps(), &registry, &given)?)
-}
-
 /// The pipeline a command asks for.
 pub fn pipeline_of_args(args: &PipelineArgs) -> Result<Pipeline> {
-    let mut given = Table::new();
-    if let Some(path) = &args.config {
-        let file = ConfigFile::read(path, &pipeline_tables())?;
-        given = file.pipeline_settings();
-        let registry = seamline_plugins::registry();
-        Pipeline::assemble(&builtin_steps(), &registry, &given).map_err(|e| file.locate(e))?;
-    }
-    lay_environment_over(&mut given, env::vars())?;
-    lay_args_over(&mut given, args)?;
+    let file = args
+        .config
+        .as_ref()
+        .map(|path| ConfigFile::read(path, &pipeline_tables()));
+    assemble(file.transpose()?.as_ref(), args)
+}
+
+/// The pipeline of a configuration, with the environment laid over it.
+pub fn pipeline_of_file(file: &ConfigFile) -> Result<Pipeline> {
+    assemble(Some(file), &PipelineArgs::default())
+}
+
+fn assemble(file: Option<&ConfigFile>, args: &PipelineArgs) -> Result<Pipeline> {
     let registry = seamline_plugins::registry();
-    Ok(Pipeline::assemble(&builtin_steps(), &registry, &given)?)
+    let assemble = |given: &Table| Pipeline::assemble(&builtin_steps(), &registry, given);
+    let mut given = Table::new();
+    if let Some(file) = file {
+        given = file.pipeline_settings();
+        // Alone first, so that its mistakes are told with their line.
+        assemble(&given).map_err(|error| file.locate(error))?;
+    }
+    lay_environment_over(&mut given, env::vars_os())?;
+    lay_args_over(&mut given, args)?;
+    Ok(assemble(&given)?)
 }
 
 fn lay_args_over(given: &mut Table, args: &PipelineArgs) -> Result<()> {
@@ -74,23 +77,47 @@ fn lay_args_over(given: &mut Table, args: &PipelineArgs) -> Result<()> {
 /// key is `SEAMLINE_TABLE__KEY`.
 fn lay_environment_over(
     given: &mut Table,
-    variables: impl Iterator<Item = (String, String)>,
+    variables: impl Iterator<Item = (OsString, OsString)>,
 ) -> Result<(), SettingsError> {
     let mut ours: Vec<_> = variables
+        .map(|(name, value)| (name.to_string_lossy().into_owned(), value))
         .filter(|(name, _)| name.starts_with(ENVIRONMENT_PREFIX))
         .collect();
     ours.sort();
+    let known = known_variables();
     for (name, value) in ours {
-        let key = name[ENVIRONMENT_PREFIX.len()..].to_lowercase();
-        let (table, key) = key.split_once("__").unwrap_or(("pipeline", &key));
-        let tables = pipeline_tables();
-        let known = tables
-            .iter()
-            .find(|known| known.name.replace('-', "_") == table);
-        let table = known.map_or(table, |known| known.name);
-        set_dotted(given, &format!("{table}.{key}"), &value)?;
+        let Some((_, key)) = known.iter().find(|(known, _)| *known == name) else {
+            let known = known.iter().map(|(known, _)| known.as_str());
+            return Err(SettingsError::unknown(
+                &name,
+                "variable of the environment",
+                &name,
+                known,
+            ));
+        };
+        let value = value.to_str().ok_or_else(|| {
+            SettingsError::new(&name, "is not text", "wants a value as in a configuration")
+        })?;
+        set_dotted(given, key, value)?;
     }
     Ok(())
+}
+
+/// Every variable that is looked at, and the dotted key it stands for.
+fn known_variables() -> Vec<(String, String)> {
+    let variable =
+        |name: &str| ENVIRONMENT_PREFIX.to_owned() + &name.replace('-', "_").to_uppercase();
+    let mut known = Vec::new();
+    for table in pipeline_tables() {
+        for key in (table.defaults)(Profile::default()).keys() {
+            let dotted = format!("{}.{key}", table.name);
+            if table.name == PipelineSettings::TABLE {
+                known.push((variable(key), dotted.clone()));
+            }
+            known.push((variable(&format!("{}__{key}", table.name)), dotted));
+        }
+    }
+    known
 }
 
 #[cfg(test)]
@@ -107,7 +134,7 @@ mod tests {
         ];
         let variables = variables
             .into_iter()
-            .map(|(name, value)| (name.to_owned(), value.to_owned()));
+            .map(|(name, value)| (name.into(), value.into()));
         lay_environment_over(&mut given, variables).unwrap();
         assert_eq!(given["pipeline"]["profile"].as_str(), Some("lavoue2005"));
         assert_eq!(

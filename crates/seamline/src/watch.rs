@@ -1,6 +1,6 @@
 //! `seamline watch`: watch folders and cut every mesh that is dropped there.
 
-use std::io;
+use std::io::{self, IsTerminal};
 use std::sync::Arc;
 
 use anyhow::{Context, Result};
@@ -9,7 +9,9 @@ use tracing_subscriber::filter::LevelFilter;
 
 use crate::args::{SaidArgs, WatchArgs};
 use crate::outcome::Outcome;
+use crate::say::print;
 use crate::settings::{pipeline_of_file, pipeline_tables};
+use seamline_watch::shown;
 
 /// Runs the daemon until it is drained (`--once`) or told to stop (Ctrl-C, SIGTERM).
 pub fn run(args: &WatchArgs) -> Result<Outcome> {
@@ -32,7 +34,7 @@ pub fn run(args: &WatchArgs) -> Result<Outcome> {
     let summary = seamline_watch::run(config, pipeline, options, stopped)
         .map_err(|error| anyhow::anyhow!("{error}; {}", error.hint()))?;
     for path in &summary.listed {
-        println!("{}", path.display());
+        print(&shown(path))?;
     }
     Ok(if args.once {
         Outcome::of_failures(summary.failed)
@@ -50,6 +52,8 @@ fn log_to_standard_error(said: SaidArgs) {
     tracing_subscriber::fmt()
         .with_max_level(level)
         .with_target(false)
+        .with_ansi(io::stderr().is_terminal())
+        .log_internal_errors(false)
         .with_writer(io::stderr)
         .init();
 }

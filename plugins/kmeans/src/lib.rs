@@ -61,7 +61,16 @@ impl StepSettings for KMeansSettings {
     }
 
     fn check(&self) -> Result<(), OutOfRange> {
-        OutOfRange::unless(self.clusters >= 1, "clusters", "1 cluster or more")?;
+        OutOfRange::unless(
+            (1..=1000).contains(&self.clusters),
+            "clusters",
+            "a number from 1 to 1000",
+        )?;
+        OutOfRange::unless(
+            (1..=10_000).contains(&self.max_rounds),
+            "max_rounds",
+            "a number from 1 to 10000",
+        )?;
         let share = |value: f64| (0.0..=1.0).contains(&value);
         OutOfRange::unless(
             share(self.min_cluster_share),

@@ -102,30 +102,11 @@ impl ConfigFile {
 }
 
 fn read_table<S: StepSettings>(given: Option<&Value>) -> Result<S, SettingsError> {
+    let given = given.map(|table| (S::TABLE.to_owned(), table.clone()));
     let known = [SettingsTable::of::<S>()];
-    let resolve = |given: Option<&Value>| {
-        let given = given.map(|table| (S::TABLE.to_owned(), table.clone()));
-        settings::resolve(&known, Profile::Cad, &given.into_iter().collect())
-    };
-    let in_force = resolve(given).map_err(|mut error| {
-        // A value of the right kind that is none of the words allowed is reported for the table as a
-        // whole; the key to blame is the one that is refused on its own.
-        if error.key == S::TABLE {
-            let alone = |(key, value): (&String, &Value)| {
-                let alone = Table::from_iter([(key.clone(), value.clone())]);
-                let refused = resolve(Some(&Value::Table(alone))).is_err_and(|e| e.key == S::TABLE);
-                refused.then(|| format!("{}.{key}", S::TABLE))
-            };
-            let culprit = given
-                .and_then(Value::as_table)
-                .and_then(|table| table.iter().find_map(alone));
-            error.hint = match culprit {
-                Some(_) => "see `seamline config schema`".to_owned(),
-                None => error.hint,
-            };
-            error.key = culprit.unwrap_or(error.key);
-        }
-        error
-    })?;
-    settings::read(&in_force)
+    settings::read(&settings::resolve(
+        &known,
+        Profile::Cad,
+        &given.into_iter().collect(),
+    )?)
 }

@@ -1,4 +1,4 @@
-//! Curvature over a geodesic ball (paper 4.2.1; algorithm step 2.2): the connected part of the surface
+//! Curvature over a geodesic ball (paper 4.2.1): the connected part of the surface
 //! about a vertex that lies in a sphere, with edges and area clipped at the sphere.
 
 use std::collections::BTreeSet;

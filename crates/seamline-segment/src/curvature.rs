@@ -1,4 +1,4 @@
-//! Curvature at vertices, and the samples made of it (paper 4.2.1; algorithm steps 2 and 3.1).
+//! Curvature at vertices, and the samples made of it (paper 4.2.1).
 
 use bevy_ecs::prelude::*;
 use glam::DVec3;

@@ -1,4 +1,4 @@
-//! Principal curvatures and directions of a curvature tensor (algorithm step 2.5).
+//! Principal curvatures and directions of a curvature tensor.
 
 use glam::DVec3;
 use seamline_ecs::components::{Principal, SymmetricTensor};

@@ -1,4 +1,4 @@
-//! Facets, the flat pieces of a tessellation, and the curvature each of them bears (algorithm 6.1 to 6.4).
+//! Facets, the flat pieces of a tessellation, and the curvature each of them bears.
 //!
 //! On a coarse CAD tessellation every vertex of a fillet lies on its rim, shared with large planes, and
 //! says little of the fillet. Its strips say all: one strip of a cylinder, a plane however it is cut, a
@@ -12,11 +12,11 @@ use seamline_ecs::components::*;
 use seamline_ecs::rows::{self, Samples};
 use seamline_ecs::settings::{OutOfRange, Profile, StepSettings};
 use seamline_ecs::{Column, ColumnMut, Counts, MeshTopology, Stage, StageSystems};
+use seamline_mesh::{Sets, Topology};
 use serde::{Deserialize, Serialize};
 
 use crate::eigen::tangent_principal_frame;
 use crate::tensor::{Bending, BendingColumns, add_scaled, face_tensors, over};
-use seamline_mesh::{Sets, Topology};
 
 /// The `[facets]` table: curvature on facets.
 #[derive(Resource, Clone, Debug, Serialize, Deserialize, JsonSchema)]

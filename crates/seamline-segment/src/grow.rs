@@ -1,13 +1,12 @@
-//! Regions of equal cluster (paper 4.3; algorithm steps 4 and 6.5).
+//! Regions of equal cluster (paper 4.3).
 
 use bevy_ecs::prelude::*;
 use seamline_ecs::components::*;
 use seamline_ecs::rows::{self, Regions};
 use seamline_ecs::{Column, Counts, MeshTopology, Stage, StageSystems, StepError, fallible};
-use seamline_mesh::Topology;
+use seamline_mesh::{Sets, Topology};
 
 use crate::rounding::to_eight_digits;
-use seamline_mesh::Sets;
 
 pub(crate) fn vertex_systems() -> StageSystems {
     (fallible(check_clusters), grow_from_vertices.pipe(make_rows))

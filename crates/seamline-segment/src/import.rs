@@ -1,4 +1,4 @@
-//! Import: rows for the mesh, its topology, and its scale (algorithm step 0).
+//! Import: rows for the mesh, its topology, and its scale.
 
 use bevy_ecs::prelude::*;
 use glam::DVec3;

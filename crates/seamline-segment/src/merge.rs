@@ -1,4 +1,4 @@
-//! Region merging (paper 4.4; algorithm steps 5 and 6.6): the graph's shortest link goes first, until the
+//! Region merging (paper 4.4): the graph's shortest link goes first, until the
 //! shortest is longer than a threshold or few enough regions are left.
 
 use bevy_ecs::prelude::*;

@@ -45,8 +45,8 @@ impl PartialOrd for Candidate {
 
 /// All links of a region are measured again once it has changed by this much, relatively, since they were
 /// last. A region of ten thousand neighbours that takes them in one by one would else cost the square of
-/// that: 7 s of 16 on a flange of 1.7 million triangles. A distance that has grown is noticed in any case; one that
-/// has shrunk by less than about this is noticed late.
+/// that: 7 s of 16 on a flange of 1.7 million triangles. A distance that has grown is noticed in any case;
+/// one that has shrunk by less than about this is noticed late.
 const MEASURE_AGAIN_AFTER: f64 = 0.01;
 
 /// Reduces the graph. Gives the new number of each region, counted by lowest old one, and what is left.

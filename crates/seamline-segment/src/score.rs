@@ -1,4 +1,4 @@
-//! The boundary score (paper 5.2; algorithm step 7): how badly an edge would serve as a boundary, from 0
+//! The boundary score (paper 5.2): how badly an edge would serve as a boundary, from 0
 //! (well: along the lines of least curvature, where curvature changes) to 90 degrees.
 
 use bevy_ecs::prelude::*;

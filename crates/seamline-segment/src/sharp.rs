@@ -1,4 +1,4 @@
-//! Sharp edges and vertices (paper 4.1; algorithm step 1).
+//! Sharp edges and vertices (paper 4.1).
 
 use bevy_ecs::prelude::*;
 use rayon::prelude::*;

@@ -1,4 +1,4 @@
-//! Curvature tensors from the normal cycle (Cohen-Steiner & Morvan 2003; paper 4.2.1; algorithm step 2).
+//! Curvature tensors from the normal cycle (Cohen-Steiner & Morvan 2003; paper 4.2.1).
 //!
 //! An edge bends the surface by its dihedral angle over its length: `E_e = beta |e| e eᵀ`. A face gets half
 //! of each of its edges, `F_t = ½ Σ E_e`, and `T_t = F_t / A_t` is its curvature. Convex is positive.

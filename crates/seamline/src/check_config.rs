@@ -1,13 +1,12 @@
 //! `seamline config`: check a configuration, or print the schema of all configurations.
 
 use anyhow::Result;
-use seamline_watch::{Config, ConfigFile};
+use seamline_watch::{Config, ConfigFile, shown};
 
 use crate::args::ConfigCommand;
 use crate::outcome::Outcome;
 use crate::say::print;
 use crate::settings::{pipeline_of_file, pipeline_tables};
-use seamline_watch::shown;
 
 /// Checks or prints.
 pub fn run(command: &ConfigCommand) -> Result<Outcome> {

@@ -2,13 +2,12 @@
 
 use anyhow::Result;
 use seamline_mesh::{Topology, examine};
-use seamline_watch::load;
+use seamline_watch::{load, shown};
 use serde_json::json;
 
 use crate::args::InspectArgs;
 use crate::outcome::{Outcome, say_failure};
 use crate::say::print;
-use seamline_watch::shown;
 
 /// Says what every mesh named is; one that cannot be read is told and the others go on.
 pub fn run(args: &InspectArgs) -> Result<Outcome> {

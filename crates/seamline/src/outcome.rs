@@ -5,10 +5,9 @@ use std::path::Path;
 use std::process::ExitCode;
 
 use seamline_ecs::settings::SettingsError;
-use seamline_watch::ConfigError;
+use seamline_watch::{ConfigError, shown};
 
 use crate::say::say;
-use seamline_watch::shown;
 
 /// How a command ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -12,14 +12,13 @@ use seamline_ecs::results::StageRecord;
 use seamline_ecs::{Segmentation, Worker};
 use seamline_watch::outputs::sweep_leftovers;
 use seamline_watch::{
-    JobFacts, LoadedMesh, VERSION, WriteSet, load, report, weld_share, write_results,
+    JobFacts, LoadedMesh, VERSION, WriteSet, load, report, shown, weld_share, write_results,
 };
 
 use crate::args::SegmentArgs;
 use crate::outcome::{Outcome, WrongUse, say_failure};
 use crate::say::{counted, print, say};
 use crate::settings::pipeline_of_args;
-use seamline_watch::shown;
 
 /// Cuts every mesh named; one that fails is told and the others go on.
 pub fn run(args: &SegmentArgs) -> Result<Outcome> {

@@ -4,14 +4,13 @@ use std::io::{self, IsTerminal};
 use std::sync::Arc;
 
 use anyhow::{Context, Result};
-use seamline_watch::{Config, ConfigFile, RunOptions};
+use seamline_watch::{Config, ConfigFile, RunOptions, shown};
 use tracing_subscriber::filter::LevelFilter;
 
 use crate::args::{SaidArgs, WatchArgs};
 use crate::outcome::Outcome;
 use crate::say::print;
 use crate::settings::{pipeline_of_file, pipeline_tables};
-use seamline_watch::shown;
 
 /// Runs the daemon until it is drained (`--once`) or told to stop (Ctrl-C, SIGTERM).
 pub fn run(args: &WatchArgs) -> Result<Outcome> {

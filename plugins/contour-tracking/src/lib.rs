@@ -1,5 +1,5 @@
 //! The paper's rectifier: correct boundary edges are marked, then contours are tracked from their open ends
-//! until they close (paper 5.3; algorithm step 8).
+//! until they close (paper 5.3).
 
 mod mark;
 mod patches;

@@ -1,5 +1,4 @@
-//! The paper's classifier: k-means on principal curvatures, then regularisation (paper 4.2.2; algorithm
-//! step 3).
+//! The paper's classifier: k-means on principal curvatures, then regularisation (paper 4.2.2).
 //!
 //! Seeds are not drawn at random but chosen: first the sample nearest to no curvature at all, then always
 //! the sample farthest from all chosen. Random seeds fall mostly on the planes; these give the same final

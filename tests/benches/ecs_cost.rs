@@ -51,10 +51,11 @@ impl Bare {
         let by = MeshSettings::defaults(Profile::Cad).scale;
         let Laid {
             scale,
-            mut order,
+            order,
             positions,
+            triangles,
         } = lay_out(mesh, by).expect("it has an area");
-        self.topology = Topology::build(positions.len(), std::mem::take(&mut order.triangles));
+        self.topology = Topology::build(positions.len(), triangles);
         (self.length, self.order, self.positions) = (scale.length, order, positions);
         let [vertices, faces, edges] = self.topology.counts();
         self.sharp_vertices.resize(vertices, SharpVertex::default());
@@ -114,7 +115,7 @@ impl Bare {
             labels: &self.labels,
             length: self.length,
         };
-        describe(mesh, &rows, &face_patches)
+        describe(mesh, &rows, face_patches)
     }
 
     fn grow_and_merge(&mut self, clusters: &[SampleCluster]) {

@@ -47,6 +47,7 @@ struct StageClock {
 impl Worker {
     /// A worker for `pipeline`, with no rows yet.
     pub fn new(pipeline: Arc<Pipeline>) -> Self {
+        // Where no pool is to be had the one there is serves: results are the same.
         let threads = [0, rayon::current_num_threads()];
         let pool = (!threads.contains(&pipeline.threads()))
             .then(|| {

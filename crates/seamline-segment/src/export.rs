@@ -18,7 +18,7 @@ use crate::spatial_order::SpatialOrder;
 use crate::tensor::{Bending, BendingColumns, TensorForm, face_tensors, over, vertex_tensors};
 
 pub(crate) fn systems() -> StageSystems {
-    (fallible(check_labels), number, collect.pipe(make_rows))
+    (fallible(check_labels), number.pipe(collect).pipe(make_rows))
         .chain()
         .in_set(Stage::Export)
 }
@@ -42,15 +42,14 @@ fn number(
     order: Res<SpatialOrder>,
     shapes: Column<FaceShape>,
     mut labels: ColumnMut<FaceLabel>,
-    mut patches: ResMut<FacePatches>,
-) {
-    *patches = number_patches(&mesh.0, &order, &shapes, &mut labels);
+) -> FacePatches {
+    number_patches(&mesh.0, &order, &shapes, &mut labels)
 }
 
 fn collect(
+    In(patches): In<FacePatches>,
     mesh: Res<InputMesh>,
     order: Res<SpatialOrder>,
-    patches: Res<FacePatches>,
     scale: Res<MeshScale>,
     columns: BendingColumns,
     sharp_vertices: Column<SharpVertex>,
@@ -68,7 +67,7 @@ fn collect(
         labels: &labels,
         length: scale.length,
     };
-    describe(&mesh.0, &rows, &patches)
+    describe(&mesh.0, &rows, patches)
 }
 
 /// A finished mesh in rows.
@@ -88,11 +87,11 @@ pub struct LabelledRows<'a> {
 }
 
 /// Everything told of finished patches, by the mesh's own vertices and in its own unit.
-pub fn describe(mesh: &Mesh, rows: &LabelledRows, patches: &FacePatches) -> Segmentation {
+pub fn describe(mesh: &Mesh, rows: &LabelledRows, patches: FacePatches) -> Segmentation {
     let boundaries = boundaries(rows);
-    let summaries = summaries(rows, patches);
+    let summaries = summaries(rows, &patches);
     Segmentation {
-        face_patches: patches.of_face.clone(),
+        face_patches: patches.of_face,
         patches: with_neighbours(summaries, &boundaries),
         boundaries,
         vertices: vertex_quantities(rows),

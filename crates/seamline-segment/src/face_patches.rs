@@ -1,13 +1,12 @@
 //! The patch of each input face, out of the labels of triangles.
 
-use bevy_ecs::prelude::*;
 use seamline_ecs::components::{FaceLabel, FaceShape, NONE};
 use seamline_mesh::{Csr, Mesh};
 
 use crate::spatial_order::SpatialOrder;
 
 /// The patch of each input face, and how many patches there are.
-#[derive(Resource, Clone, Debug, Default)]
+#[derive(Clone, Debug)]
 pub struct FacePatches {
     /// One an input face, numbered from 0 by first face.
     pub of_face: Vec<u32>,

@@ -77,15 +77,16 @@ fn import(world: &mut World) -> Result<(), StepError> {
     }
     let Laid {
         scale,
-        mut order,
+        order,
         positions,
+        triangles,
     } = lay_out(&mesh, by).ok_or_else(|| {
         StepError::new(
             "no face has an area",
             "the mesh needs one triangle at least whose corners do not lie on one line",
         )
     })?;
-    let topology = Topology::build(positions.len(), std::mem::take(&mut order.triangles));
+    let topology = Topology::build(positions.len(), triangles);
     let [vertices, faces, edges] = topology.counts();
     rows::resize::<Vertices>(world, vertices);
     rows::resize::<Faces>(world, faces);
@@ -114,6 +115,8 @@ pub struct Laid {
     pub order: SpatialOrder,
     /// One a vertex row: scaled, the centre of the bounding box at the origin.
     pub positions: Vec<Position>,
+    /// One a face row, between vertex rows.
+    pub triangles: Vec<[u32; 3]>,
 }
 
 /// Scales a mesh and puts it in spatial order. `None` if it has no area.
@@ -130,13 +133,13 @@ pub fn lay_out(mesh: &Mesh, by: ScaleBy) -> Option<Laid> {
         .par_iter()
         .map(|&p| (p - centre) / side)
         .collect();
-    let order = SpatialOrder::of(&unit, &mesh.triangles);
+    let (order, triangles) = SpatialOrder::of(&unit, &mesh.triangles);
     let mut positions: Vec<_> = order
         .vertex_of_row
         .iter()
         .map(|&v| Position(unit[v as usize]))
         .collect();
-    let reach = reach(&positions, &order.triangles)?;
+    let reach = reach(&positions, &triangles)?;
     let shrink = match by {
         ScaleBy::LongestSide => 1.0,
         ScaleBy::Reach => 2.0 * reach,
@@ -144,13 +147,15 @@ pub fn lay_out(mesh: &Mesh, by: ScaleBy) -> Option<Laid> {
     for position in &mut positions {
         position.0 /= shrink;
     }
+    let scale = MeshScale {
+        centre,
+        length: side * shrink,
+    };
     Some(Laid {
-        scale: MeshScale {
-            centre,
-            length: side * shrink,
-        },
+        scale,
         order,
         positions,
+        triangles,
     })
 }
 

@@ -80,8 +80,6 @@ fn install(in_force: &Table) -> Result<InstallStep, SettingsError> {
             world.insert_resource(merge.clone());
             world.insert_resource(score.clone());
 
-            world.init_resource::<face_patches::FacePatches>();
-
             schedule.add_systems((import::systems(), face_shape::systems()));
             let on_vertices = curvature.carrier == Carrier::Vertices;
             if on_vertices && sharp.enrich {

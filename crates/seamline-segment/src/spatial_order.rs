@@ -19,16 +19,15 @@ pub struct SpatialOrder {
     pub vertex_of_row: Vec<u32>,
     /// The face row of each triangle of the mesh; triangles on the same three vertices share one.
     pub row_of_triangle: Vec<u32>,
-    /// The triangles by face row, their corners as vertex rows.
-    pub triangles: Vec<[u32; 3]>,
 }
 
 impl SpatialOrder {
-    /// The order of distinct `positions` and of the triangles between them. Positions are within 1 of the
+    /// The order of distinct `positions` and of the triangles between them, and the triangles by face row,
+    /// their corners as vertex rows. Positions are within 1 of the
     /// origin, or are taken as if they were at that border.
     ///
     /// Cost: n log n.
-    pub fn of(positions: &[DVec3], triangles: &[[u32; 3]]) -> Self {
+    pub fn of(positions: &[DVec3], triangles: &[[u32; 3]]) -> (Self, Vec<[u32; 3]>) {
         let mut by_place: Vec<(u64, u32)> = positions
             .par_iter()
             .enumerate()
@@ -60,11 +59,13 @@ impl SpatialOrder {
             }
             rows.push(twins[0].1);
         }
-        Self {
-            vertex_of_row,
-            row_of_triangle,
-            triangles: rows,
-        }
+        (
+            Self {
+                vertex_of_row,
+                row_of_triangle,
+            },
+            rows,
+        )
     }
 }
 
@@ -135,14 +136,14 @@ mod tests {
             let mut turned_triangles: Vec<_> = triangles.iter().map(|t| t.map(turned)).collect();
             turned_triangles.reverse();
 
-            let order = SpatialOrder::of(&points, &triangles);
-            let other = SpatialOrder::of(&turned_points, &turned_triangles);
-            prop_assert_eq!(&order.triangles, &other.triangles);
+            let (order, rows) = SpatialOrder::of(&points, &triangles);
+            let (other, other_rows) = SpatialOrder::of(&turned_points, &turned_triangles);
+            prop_assert_eq!(&rows, &other_rows);
             for (&a, &b) in order.vertex_of_row.iter().zip(&other.vertex_of_row) {
                 prop_assert_eq!(points[a as usize], turned_points[b as usize]);
             }
             for (t, &row) in order.row_of_triangle.iter().enumerate() {
-                let back = order.triangles[row as usize].map(|v| order.vertex_of_row[v as usize]);
+                let back = rows[row as usize].map(|v| order.vertex_of_row[v as usize]);
                 let sorted = |mut t: [u32; 3]| {
                     t.sort_unstable();
                     t

@@ -11,6 +11,7 @@ mod frame;
 mod line;
 mod schema;
 
+use std::net::SocketAddr;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
@@ -20,7 +21,8 @@ use toml::{Table, Value};
 pub use error::ConfigError;
 pub use file::ConfigFile;
 pub use frame::{
-    After, DaemonTable, DoneTable, OutputTable, QuarantineTable, StateTable, WatchTable,
+    After, DaemonTable, DoneTable, HttpTable, LimitsTable, LogFormat, LogLevel, LogTable,
+    OutputTable, QuarantineTable, RetryTable, StateTable, WatchTable, Watcher,
 };
 pub use line::line_of_key;
 pub use schema::schema;
@@ -37,8 +39,16 @@ pub struct Watched {
     pub recursive: bool,
     /// Which files are taken.
     pub include: Patterns,
+    /// Which are not, all the same.
+    pub exclude: Patterns,
     /// How long size and time of change must have held still.
     pub stable_for: Duration,
+    /// How long a file that ends early is taken for one that is still being written.
+    pub max_wait: Duration,
+    /// How changes are noticed.
+    pub watcher: Watcher,
+    /// Where the folder is polled: how often it is listed.
+    pub poll_every: Duration,
     /// What becomes of a file once its results are written.
     pub after: After,
 }
@@ -64,6 +74,16 @@ pub struct Config {
     pub queue: usize,
     /// The folders are listed again after this long even if nothing was heard of them.
     pub rescan_every: Duration,
+    /// What runs has this long to end once the daemon is told to stop.
+    pub drain_for: Duration,
+    /// What files and meshes may take.
+    pub limits: LimitsTable,
+    /// What is done when a disk fails.
+    pub retry: RetryTable,
+    /// Where health and metrics are told.
+    pub http: Option<SocketAddr>,
+    /// What is said.
+    pub log: LogTable,
     pipeline: Table,
 }
 
@@ -90,6 +110,10 @@ impl Config {
         let quarantine: QuarantineTable = file.table(tables.get("quarantine"), "quarantine")?;
         let done: DoneTable = file.table(tables.get("done"), "done")?;
         let daemon: DaemonTable = file.table(tables.get("daemon"), "daemon")?;
+        let limits: LimitsTable = file.table(tables.get("limits"), "limits")?;
+        let retry: RetryTable = file.table(tables.get("retry"), "retry")?;
+        let http: HttpTable = file.table(tables.get("http"), "http")?;
+        let log: LogTable = file.table(tables.get("log"), "log")?;
 
         let place = |key: &str, dir: &Path| {
             let base = file.path().parent().unwrap_or(Path::new(""));
@@ -115,6 +139,11 @@ impl Config {
             },
             queue: daemon.queue,
             rescan_every: Duration::from_millis(daemon.rescan_ms),
+            drain_for: Duration::from_secs(daemon.drain_s),
+            limits,
+            retry,
+            http: http.listen.parse().ok(),
+            log,
             pipeline: file.pipeline_settings(),
         };
         folders::check(&config).map_err(|error| file.locate(error))?;
@@ -169,18 +198,24 @@ fn watched(
                 "create the folder, or name one that exists",
             ));
         }
-        let include = Patterns::new(&table.include).map_err(|error| {
-            refuse(
-                &format!("{here}.include"),
-                error,
-                "as in `include = [\"*.stl\"]`",
-            )
-        })?;
+        let patterns = |key: &str, patterns: &[String]| {
+            Patterns::new(patterns).map_err(|error| {
+                refuse(
+                    &format!("{here}.{key}"),
+                    error,
+                    "as in `include = [\"*.stl\"]`",
+                )
+            })
+        };
         watched.push(Watched {
             root,
             recursive: table.recursive,
-            include,
+            include: patterns("include", &table.include)?,
+            exclude: patterns("exclude", &table.exclude)?,
             stable_for: Duration::from_millis(table.stable_for_ms),
+            max_wait: Duration::from_millis(table.max_wait_ms),
+            watcher: table.watcher,
+            poll_every: Duration::from_millis(table.poll_ms),
             after: table.after,
         });
     }

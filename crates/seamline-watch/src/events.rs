@@ -76,7 +76,7 @@ mod tests {
     use std::time::Duration;
 
     use super::*;
-    use crate::config::After;
+    use crate::config::{After, Watcher};
     use crate::include::Patterns;
 
     #[test]
@@ -86,7 +86,11 @@ mod tests {
             root: home.path().to_owned(),
             recursive: true,
             include: Patterns::new(&["*"]).unwrap(),
+            exclude: Patterns::new::<&str>(&[]).unwrap(),
             stable_for: Duration::from_millis(1),
+            max_wait: Duration::from_millis(1),
+            watcher: Watcher::Native,
+            poll_every: Duration::from_millis(1),
             after: After::Keep,
         };
         let events = Events::listen(&[watched]);

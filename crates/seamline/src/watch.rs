@@ -5,6 +5,8 @@ use std::sync::Arc;
 
 use anyhow::{Context, Result};
 use seamline_watch::{Config, ConfigFile, RunOptions, shown};
+use signal_hook::consts::{SIGINT, SIGTERM};
+use signal_hook::iterator::Signals;
 use tracing_subscriber::filter::LevelFilter;
 
 use crate::args::{SaidArgs, WatchArgs};
@@ -20,11 +22,13 @@ pub fn run(args: &WatchArgs) -> Result<Outcome> {
     log_to_standard_error(args.said);
 
     let (stop, stopped) = crossbeam_channel::bounded(1);
-    ctrlc::set_handler(move || {
-        // Full means it has been said before.
-        let _ = stop.try_send(());
-    })
-    .context("signals cannot be handled")?;
+    let mut signals = Signals::new([SIGINT, SIGTERM]).context("signals cannot be handled")?;
+    std::thread::spawn(move || {
+        for _ in signals.forever() {
+            // Full means it has been said before.
+            let _ = stop.try_send(());
+        }
+    });
 
     let options = RunOptions {
         once: args.once,

@@ -7,15 +7,22 @@ use seamline_ecs::settings::{self, Profile, SettingsError, SettingsTable, StepSe
 use toml::{Table, Value};
 
 use super::ConfigError;
-use super::frame::{DaemonTable, DoneTable, OutputTable, QuarantineTable, StateTable, WatchTable};
+use super::frame::{
+    DaemonTable, DoneTable, HttpTable, LimitsTable, LogTable, OutputTable, QuarantineTable,
+    RetryTable, StateTable, WatchTable,
+};
 
 /// The tables of the frame besides `[[watch]]`.
-pub(super) const FRAME: [fn() -> SettingsTable; 5] = [
+pub(super) const FRAME: [fn() -> SettingsTable; 9] = [
     SettingsTable::of::<OutputTable>,
     SettingsTable::of::<StateTable>,
     SettingsTable::of::<QuarantineTable>,
     SettingsTable::of::<DoneTable>,
     SettingsTable::of::<DaemonTable>,
+    SettingsTable::of::<LimitsTable>,
+    SettingsTable::of::<RetryTable>,
+    SettingsTable::of::<HttpTable>,
+    SettingsTable::of::<LogTable>,
 ];
 
 /// A configuration file that is TOML and holds no unknown table; its parts are checked by who needs them.

@@ -9,12 +9,16 @@
 pub mod config;
 pub mod daemon;
 pub mod events;
+pub mod health;
+pub mod http;
 pub mod include;
 pub mod load;
+pub mod metrics;
 pub mod outputs;
 pub mod quarantine;
 pub mod relocate;
 pub mod scan;
+pub mod service;
 mod shown;
 pub mod tracker;
 

@@ -10,7 +10,6 @@ use prometheus_client::metrics::counter::Counter;
 use prometheus_client::metrics::family::Family;
 use prometheus_client::metrics::gauge::Gauge;
 use prometheus_client::metrics::histogram::Histogram;
-use prometheus_client::metrics::info::Info;
 use prometheus_client::registry::{Registry, Unit};
 use seamline_ecs::Stage;
 
@@ -143,8 +142,7 @@ impl Metrics {
         }
     }
 
-    /// The registry adds the prefix, the unit, `_total` to counters, `_info` to the last, and a full stop to
-    /// the help.
+    /// The registry adds the prefix, the unit, `_total` to counters, and a full stop to the help.
     fn register(&mut self, version: &str) {
         let registry = &mut self.registry;
         registry.register(
@@ -229,11 +227,12 @@ impl Metrics {
             "Threads that were given up with a job that took too long and have not ended yet",
             self.abandoned.clone(),
         );
-        registry.register(
-            "build",
-            "The version of the program",
-            Info::new([("version", version.to_owned())]),
-        );
+        // Not of the type for this, which only OpenMetrics has: other readers would refuse the whole text.
+        let build: Family<[(&str, String); 1], Gauge> = Family::default();
+        build
+            .get_or_create(&[("version", version.to_owned())])
+            .set(1);
+        registry.register("build_info", "The version of the program, always 1", build);
     }
 
     /// A job has ended, or one try at it. One call an event: a job that timed out is not `Quarantined` too.

@@ -11,6 +11,8 @@ pub mod daemon;
 pub mod events;
 pub mod include;
 pub mod load;
+pub mod lock;
+pub mod mounts;
 pub mod outputs;
 pub mod quarantine;
 pub mod relocate;

@@ -109,7 +109,7 @@ pub fn run(
     }
     prepare(&config)?;
     // Before the first look: what comes between the two is heard of, or seen.
-    let events = Events::listen(&config.watch);
+    let mut events = Events::listen(&config.watch);
     for watched in &config.watch {
         info!("watching {}", watched.root.display());
     }
@@ -119,7 +119,7 @@ pub fn run(
         backlog: Backlog::default(),
         summary: Summary::default(),
     };
-    let kept = books.keep(&crew, &events, options.once, stop);
+    let kept = books.keep(&crew, &mut events, options.once, stop);
     // On an error too: nothing new is begun, and threads that still live are let go.
     crew.begin_nothing_new();
     match kept {
@@ -162,7 +162,7 @@ impl Books {
     fn keep(
         &mut self,
         crew: &Crew,
-        events: &Events,
+        events: &mut Events,
         once: bool,
         mut stop: Receiver<()>,
     ) -> Result<(), WatchError> {
@@ -193,7 +193,10 @@ impl Books {
             select! {
                 recv(crew.outcomes()) -> outcome => self.enter(outcome)?,
                 recv(hints) -> hint => match hint {
-                    Ok(()) => self.lookout.hint(),
+                    Ok(()) => {
+                        events.take();
+                        self.lookout.hint();
+                    }
                     // Nothing more will be heard; the periodic listing goes on.
                     Err(RecvError) => hints = never(),
                 },

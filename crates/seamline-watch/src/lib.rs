@@ -14,6 +14,8 @@ pub mod http;
 pub mod include;
 pub mod load;
 pub mod metrics;
+pub mod lock;
+pub mod mounts;
 pub mod outputs;
 pub mod quarantine;
 pub mod relocate;

@@ -1,5 +1,7 @@
-//! A pipeline that cuts nothing: it obeys, so that the daemon around it can be tested.
+//! What several tests need: a pipeline that cuts nothing but obeys, and a system of one's own.
 
+use std::path::{Path, PathBuf};
+use std::process::Command;
 use std::sync::Arc;
 use std::time::Duration;
 
@@ -87,4 +89,44 @@ pub fn strip(faces: usize) -> String {
     let vertices = (0..faces + 2).map(|v| format!("v {} {} 0\n", v / 2, v % 2));
     let triangles = (1..=faces).map(|f| format!("f {f} {} {}\n", f + 1, f + 2));
     vertices.chain(triangles).collect()
+}
+
+const INSIDE: &str = "SEAMLINE_TEST_INSIDE";
+
+/// Runs the test of this name again, alone, as root of a user and mount namespace of its own (`unshare`),
+/// where it may mount what it likes and set limits that are nobody else's. There it gives the test's folder,
+/// which `prepare` has filled; here it gives nothing, once the other has passed. Where the system has no
+/// such namespaces to give, that is said and the test is skipped.
+pub fn in_own_namespace(test: &str, prepare: impl FnOnce(&Path)) -> Option<PathBuf> {
+    if let Some(folder) = std::env::var_os(INSIDE) {
+        return Some(folder.into());
+    }
+    let unshare = || {
+        let mut command = Command::new("unshare");
+        command.args(["--user", "--map-root-user", "--mount"]);
+        command
+    };
+    if !unshare()
+        .arg("true")
+        .output()
+        .is_ok_and(|tried| tried.status.success())
+    {
+        eprintln!("SKIPPED: {test}: `unshare --user --map-root-user --mount` does not work here");
+        return None;
+    }
+    let home = tempfile::tempdir().unwrap();
+    prepare(home.path());
+    let again = unshare()
+        .arg(std::env::current_exe().unwrap())
+        .args(["--exact", test, "--nocapture"])
+        .env(INSIDE, home.path())
+        .output()
+        .unwrap();
+    let [said, errors] = [&again.stdout, &again.stderr].map(|text| String::from_utf8_lossy(text));
+    assert!(again.status.success(), "{said}\n{errors}");
+    assert!(
+        said.contains("1 passed"),
+        "no test is called {test}:\n{said}"
+    );
+    None
 }

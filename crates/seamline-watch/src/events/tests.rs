@@ -1,0 +1,484 @@
+use std::fs;
+use std::io::Write;
+use std::os::unix::fs::{PermissionsExt, chown, symlink};
+use std::sync::{Arc, Mutex};
+use std::time::{Duration, Instant};
+
+use super::*;
+use crate::config::After;
+use crate::include::Patterns;
+use crate::scan::scan;
+use crate::test_support::in_own_namespace;
+
+const LONG: Duration = Duration::from_secs(20);
+const SHORT: Duration = Duration::from_millis(300);
+
+fn watched(root: &Path, watcher: Watcher) -> Watched {
+    Watched {
+        root: root.to_owned(),
+        recursive: true,
+        include: Patterns::new(&["*"]).unwrap(),
+        exclude: Patterns::new::<&str>(&[]).unwrap(),
+        stable_for: Duration::from_millis(1),
+        max_wait: Duration::from_millis(1),
+        watcher,
+        poll_every: Duration::from_millis(100),
+        after: After::Keep,
+    }
+}
+
+fn native(root: &Path) -> Events {
+    let events = Events::listen(&[watched(root, Watcher::Native)]);
+    assert!(!events.is_polled(root));
+    events
+}
+
+/// Waits until each of these was named, and gives all that were.
+fn named(events: &mut Events, wanted: &[&Path]) -> HashSet<PathBuf> {
+    let until = Instant::now() + LONG;
+    let mut all = HashSet::new();
+    while !wanted.iter().all(|path| all.contains(*path)) {
+        let woken = events.hints().recv_deadline(until);
+        assert!(
+            woken.is_ok(),
+            "heard of {all:?} and not of all of {wanted:?}"
+        );
+        for hint in events.take() {
+            match hint {
+                Hint::Changed(path) => all.insert(path),
+                Hint::Everything { .. } => panic!("{hint:?}"),
+            };
+        }
+    }
+    all
+}
+
+fn nothing_more(events: &mut Events) {
+    while events.hints().recv_timeout(SHORT).is_ok() {
+        events.take();
+    }
+}
+
+/// What somebody finds who looks wherever a hint points.
+fn files_found(events: &mut Events, wanted: usize) -> (HashSet<PathBuf>, usize) {
+    let roots: Vec<PathBuf> = events
+        .roots
+        .iter()
+        .map(|root| root.watched.root.clone())
+        .collect();
+    let until = Instant::now() + LONG;
+    let (mut found, mut wakes) = (HashSet::new(), 0);
+    while found.len() < wanted {
+        let woken = events.hints().recv_deadline(until);
+        assert!(woken.is_ok(), "{} of {wanted}", found.len());
+        wakes += 1;
+        for hint in events.take() {
+            let places = match hint {
+                Hint::Changed(path) => vec![path],
+                Hint::Everything { .. } => roots.clone(),
+            };
+            for place in places {
+                if place.is_file() {
+                    found.insert(place);
+                } else if let Ok(listing) = scan(&place, true, &Patterns::new(&["*"]).unwrap()) {
+                    found.extend(listing.files.into_iter().map(|file| file.path));
+                }
+            }
+        }
+    }
+    (found, wakes)
+}
+
+#[test]
+fn each_kind_of_change_names_its_path() {
+    let [home, elsewhere] = [(); 2].map(|()| tempfile::tempdir().unwrap());
+    let root = home.path();
+    fs::create_dir(root.join("sub")).unwrap();
+    let [a, b, inside, outside] =
+        ["a.stl", "b.stl", "sub/c.stl", "c.stl"].map(|name| root.join(name));
+    let away = elsewhere.path().join("away.stl");
+    let mut events = native(root);
+
+    let mut file = fs::File::create(&a).unwrap();
+    named(&mut events, &[&a]);
+    file.write_all(b"x").unwrap();
+    named(&mut events, &[&a]);
+    nothing_more(&mut events);
+    drop(file);
+    named(&mut events, &[&a]);
+    fs::rename(&a, &b).unwrap();
+    named(&mut events, &[&a, &b]);
+    fs::rename(&b, &inside).unwrap();
+    named(&mut events, &[&b, &inside]);
+    fs::rename(&inside, &away).unwrap();
+    assert!(!named(&mut events, &[&inside]).contains(&away));
+    fs::rename(&away, &outside).unwrap();
+    named(&mut events, &[&outside]);
+    nothing_more(&mut events);
+    fs::remove_file(&outside).unwrap();
+    assert_eq!(named(&mut events, &[&outside]).len(), 1);
+}
+
+#[test]
+fn reading_and_listing_and_unfinished_names_give_no_hint() {
+    let home = tempfile::tempdir().unwrap();
+    let part = home.path().join("a/part.stl");
+    fs::create_dir_all(home.path().join("a")).unwrap();
+    fs::create_dir_all(home.path().join(".trash")).unwrap();
+    fs::write(&part, "x").unwrap();
+    let mut events = native(home.path());
+    fs::read(&part).unwrap();
+    assert_eq!(fs::read_dir(home.path()).unwrap().count(), 2);
+    assert_eq!(fs::read_dir(home.path().join("a")).unwrap().count(), 1);
+    fs::write(home.path().join("a/other.stl.part"), "x").unwrap();
+    fs::write(home.path().join(".trash/x.stl"), "x").unwrap();
+    assert!(events.hints().recv_timeout(SHORT).is_err());
+    assert_eq!(events.take(), []);
+}
+
+#[test]
+fn folders_made_with_files_in_them_are_named_and_then_listened_to() {
+    let home = tempfile::tempdir().unwrap();
+    let mut events = native(home.path());
+    for number in 0..20 {
+        let folder = home.path().join(format!("{number}/a/b/c"));
+        fs::create_dir_all(&folder).unwrap();
+        for file in 0..10 {
+            fs::write(folder.join(format!("{file}.stl")), "x").unwrap();
+        }
+    }
+    files_found(&mut events, 200);
+    nothing_more(&mut events);
+    for number in 0..20 {
+        let late = home.path().join(format!("{number}/a/b/c/late.stl"));
+        fs::write(&late, "x").unwrap();
+        named(&mut events, &[&late]);
+    }
+}
+
+#[test]
+fn a_folder_moved_in_or_within_is_listened_to_under_its_new_name() {
+    let [home, elsewhere] = [(); 2].map(|()| tempfile::tempdir().unwrap());
+    let mut events = native(home.path());
+    fs::create_dir_all(elsewhere.path().join("a/b")).unwrap();
+    let [here, there] = ["here", "there"].map(|name| home.path().join(name));
+    fs::rename(elsewhere.path().join("a"), &here).unwrap();
+    named(&mut events, &[&here]);
+    fs::rename(&here, &there).unwrap();
+    named(&mut events, &[&here, &there]);
+    nothing_more(&mut events);
+    let part = there.join("b/part.stl");
+    fs::write(&part, "x").unwrap();
+    assert_eq!(named(&mut events, &[&part]).len(), 1);
+}
+
+#[test]
+fn links_to_folders_are_not_followed_and_without_recursion_no_folder_is() {
+    let [home, elsewhere] = [(); 2].map(|()| tempfile::tempdir().unwrap());
+    symlink(elsewhere.path(), home.path().join("link")).unwrap();
+    let mut events = native(home.path());
+    fs::write(elsewhere.path().join("a.stl"), "x").unwrap();
+    assert!(events.hints().recv_timeout(SHORT).is_err());
+
+    let flat = Watched {
+        recursive: false,
+        ..watched(home.path(), Watcher::Native)
+    };
+    events.retarget(&[flat]);
+    let sub = home.path().join("sub");
+    fs::create_dir(&sub).unwrap();
+    named(&mut events, &[&sub]);
+    nothing_more(&mut events);
+    fs::write(sub.join("a.stl"), "x").unwrap();
+    assert!(events.hints().recv_timeout(SHORT).is_err());
+}
+
+#[test]
+fn a_root_that_went_away_is_heard_again_when_it_is_back() {
+    let home = tempfile::tempdir().unwrap();
+    let root = home.path().join("inbox");
+    fs::create_dir_all(root.join("a")).unwrap();
+    let watched = watched(&root, Watcher::Auto);
+    let mut events = Events::listen(std::slice::from_ref(&watched));
+    for leaves_by in [fs::remove_dir_all::<&Path>, |root: &Path| {
+        fs::rename(root, root.with_extension("old"))
+    }] {
+        assert!(!events.is_polled(&root) && !events.waits_for(&root));
+        leaves_by(&root).unwrap();
+        named(&mut events, &[&root]);
+        nothing_more(&mut events);
+        assert!(events.is_polled(&root) && events.waits_for(&root));
+
+        fs::create_dir_all(root.join("a")).unwrap();
+        events.hear_again(&watched);
+        let part = root.join("a/part.stl");
+        fs::write(&part, "x").unwrap();
+        named(&mut events, &[&part]);
+    }
+}
+
+#[test]
+fn a_root_replaced_at_once_is_heard_without_being_asked_for() {
+    let home = tempfile::tempdir().unwrap();
+    let root = home.path().join("inbox");
+    fs::create_dir(&root).unwrap();
+    let mut events = native(&root);
+    fs::rename(&root, home.path().join("old")).unwrap();
+    fs::create_dir(&root).unwrap();
+    named(&mut events, &[&root]);
+    nothing_more(&mut events);
+    assert!(!events.is_polled(&root));
+    let part = root.join("part.stl");
+    fs::write(&part, "x").unwrap();
+    named(&mut events, &[&part]);
+}
+
+#[test]
+fn a_burst_of_files_loses_none_and_wakes_seldom() {
+    const FILES: usize = 20_000;
+    let home = tempfile::tempdir().unwrap();
+    let mut events = native(home.path());
+    for number in 0..FILES {
+        fs::File::create(home.path().join(format!("{number}.stl"))).unwrap();
+    }
+    let (found, wakes) = files_found(&mut events, FILES);
+    assert_eq!(found.len(), FILES);
+    assert!(wakes < 1000, "{wakes}");
+}
+
+#[test]
+fn what_overflows_the_queue_of_the_system_is_told_and_new_folders_are_found() {
+    let home = tempfile::tempdir().unwrap();
+    let mut events = native(home.path());
+    let most: usize = fs::read_to_string("/proc/sys/fs/inotify/max_queued_events")
+        .unwrap()
+        .trim()
+        .parse()
+        .unwrap();
+    let late = home.path().join("a/late.stl");
+    let names = ["1.stl", "2.stl"].map(|name| home.path().join(name));
+    fs::write(&names[0], "x").unwrap();
+    {
+        let Ear::Native(listener) = &events.roots[0].ear else {
+            panic!("polled");
+        };
+        // The thread that hears waits, as behind a slow machine, until the queue is full.
+        let _deaf = listener.deafen();
+        for number in 0..most {
+            fs::rename(&names[number % 2], &names[(number + 1) % 2]).unwrap();
+        }
+        fs::create_dir(late.parent().unwrap()).unwrap();
+    }
+    let until = Instant::now() + LONG;
+    loop {
+        assert!(
+            events.hints().recv_deadline(until).is_ok(),
+            "no overflow was told"
+        );
+        if events.take().contains(&Hint::Everything { overflow: true }) {
+            break;
+        }
+    }
+    nothing_more(&mut events);
+    fs::write(&late, "x").unwrap();
+    named(&mut events, &[&late]);
+}
+
+#[test]
+fn polling_and_a_missing_root_are_no_errors() {
+    let home = tempfile::tempdir().unwrap();
+    let missing = home.path().join("missing");
+    let said = said_while(|| {
+        let events = Events::listen(&[
+            watched(home.path(), Watcher::Poll),
+            watched(&missing, Watcher::Auto),
+        ]);
+        assert!(events.is_polled(home.path()) && !events.waits_for(home.path()));
+        assert!(events.is_polled(&missing) && events.waits_for(&missing));
+        assert!(events.is_polled(Path::new("/never/named")));
+    });
+    assert_eq!(said, "");
+}
+
+#[test]
+fn other_roots_are_listened_to_after_a_reload() {
+    let [one, two, three] = [(); 3].map(|()| tempfile::tempdir().unwrap());
+    let given = [&one, &two, &three].map(|home| watched(home.path(), Watcher::Native));
+    let mut events = Events::listen(&given[..2]);
+    // Heard and not taken yet: what stays is not begun anew.
+    fs::write(two.path().join("early.stl"), "x").unwrap();
+    events.retarget(&given[1..]);
+    assert!(events.is_polled(one.path()));
+    fs::write(one.path().join("a.stl"), "x").unwrap();
+    fs::write(three.path().join("a.stl"), "x").unwrap();
+    let wanted = [two.path().join("early.stl"), three.path().join("a.stl")];
+    let heard = named(&mut events, &[&wanted[0], &wanted[1]]);
+    assert_eq!(heard.len(), 2);
+}
+
+#[test]
+fn a_folder_that_may_not_be_read_keeps_no_other_from_being_heard() {
+    let test = "events::tests::a_folder_that_may_not_be_read_keeps_no_other_from_being_heard";
+    let closed = |home: &Path| {
+        for name in ["a", "b", "c"] {
+            fs::create_dir_all(home.join(name).join("below")).unwrap();
+        }
+        // Of an owner whom the root of the namespace is not.
+        let _ = chown(home.join("b"), Some(65534), Some(65534));
+        fs::set_permissions(home.join("b"), fs::Permissions::from_mode(0)).unwrap();
+    };
+    let Some(home) = in_own_namespace(test, closed) else {
+        return;
+    };
+    assert!(fs::read_dir(home.join("b")).is_err());
+    let mut events = native(&home);
+    for name in ["a", "c"] {
+        let part = home.join(name).join("below/part.stl");
+        fs::write(&part, "x").unwrap();
+        named(&mut events, &[&part]);
+    }
+}
+
+#[test]
+fn shares_are_polled_unless_told_otherwise() {
+    let test = "events::tests::shares_are_polled_unless_told_otherwise";
+    let Some(home) = in_own_namespace(test, |_| {}) else {
+        return;
+    };
+    if !Path::new("/dev/fuse").exists() {
+        eprintln!("SKIPPED: {test}: there is no /dev/fuse here");
+        return;
+    }
+    let share = home.join("vendor");
+    fs::create_dir(&share).unwrap();
+    let options = "fd=9,rootmode=40000,user_id=0,group_id=0";
+    let mount = format!("exec 9<>/dev/fuse && mount -i -t fuse -o {options} host:/x \"$0\"");
+    let status = std::process::Command::new("sh")
+        .arg("-c")
+        .arg(mount)
+        .arg(&share)
+        .status();
+    assert!(status.unwrap().success());
+    let flat = Watched {
+        recursive: false,
+        ..watched(&home, Watcher::Auto)
+    };
+    assert!(!Events::listen(&[flat]).is_polled(&home));
+    // The program behind this one is gone, so that the system refuses to listen there.
+    let said = said_while(|| {
+        assert!(Events::listen(&[watched(&home, Watcher::Native)]).is_polled(&home));
+    });
+    assert!(said.contains("WARN") && said.lines().count() == 1, "{said}");
+    let said = said_while(|| {
+        let watched = watched(&home, Watcher::Auto);
+        let mut events = Events::listen(std::slice::from_ref(&watched));
+        assert!(events.is_polled(&home) && !events.waits_for(&home));
+        events.hear_again(&watched);
+    });
+    assert_eq!(said.lines().count(), 1, "{said}");
+    assert!(
+        said.contains(&format!("{} is of type fuse", share.display())),
+        "{said}"
+    );
+}
+
+#[test]
+fn without_instances_of_inotify_the_root_is_polled_and_one_line_says_so() {
+    let test =
+        "events::tests::without_instances_of_inotify_the_root_is_polled_and_one_line_says_so";
+    let Some(home) = in_own_namespace(test, |_| {}) else {
+        return;
+    };
+    if !limited(test, "max_inotify_instances", 0) {
+        return;
+    }
+    for watcher in [Watcher::Auto, Watcher::Native] {
+        let said = said_while(|| {
+            let watched = watched(&home, watcher);
+            let mut events = Events::listen(std::slice::from_ref(&watched));
+            assert!(events.is_polled(&home) && !events.waits_for(&home));
+            events.hear_again(&watched);
+        });
+        assert_eq!(said.lines().count(), 1, "{said}");
+        assert!(
+            said.contains("sudo sysctl fs.inotify.max_user_instances="),
+            "{said}"
+        );
+    }
+}
+
+#[test]
+fn without_watches_of_inotify_the_root_is_polled_and_one_line_says_so() {
+    let test = "events::tests::without_watches_of_inotify_the_root_is_polled_and_one_line_says_so";
+    let Some(home) = in_own_namespace(test, |_| {}) else {
+        return;
+    };
+    let [small, large] = ["small", "large"].map(|name| home.join(name));
+    for number in 0..10 {
+        fs::create_dir_all(large.join(number.to_string())).unwrap();
+    }
+    fs::create_dir(&small).unwrap();
+    if !limited(test, "max_inotify_watches", 5) {
+        return;
+    }
+    let watched = [&large, &small].map(|root| watched(root, Watcher::Auto));
+    let said = said_while(|| {
+        let mut events = Events::listen(&watched);
+        assert!(events.is_polled(&large));
+        // The five watches of the root that was given up are free again.
+        let until = Instant::now() + LONG;
+        while events.is_polled(&small) && Instant::now() < until {
+            std::thread::sleep(Duration::from_millis(10));
+            events.hear_again(&watched[1]);
+        }
+        assert!(!events.is_polled(&small));
+        nothing_more(&mut events);
+
+        // The limit is met later, by new folders.
+        fs::create_dir_all(small.join("1/2/3/4/5/6/7")).unwrap();
+        named(&mut events, &[&small]);
+        assert!(events.is_polled(&small));
+    });
+    let warnings: Vec<_> = said.lines().filter(|line| line.contains("small")).collect();
+    assert_eq!(warnings.len(), 1, "{said}");
+    assert_eq!(said.lines().count(), 2, "{said}");
+    for line in said.lines() {
+        assert!(
+            line.contains("sudo sysctl fs.inotify.max_user_watches="),
+            "{said}"
+        );
+    }
+}
+
+/// Sets a limit of this user namespace; false, and said, where that cannot be.
+fn limited(test: &str, limit: &str, to: u32) -> bool {
+    let set = fs::write(format!("/proc/sys/user/{limit}"), to.to_string());
+    if let Err(error) = &set {
+        eprintln!("SKIPPED: {test}: user.{limit} cannot be set here: {error}");
+    }
+    set.is_ok()
+}
+
+/// The log lines of this thread.
+fn said_while(act: impl FnOnce()) -> String {
+    let lines = Arc::new(Mutex::new(Vec::new()));
+    let to = Arc::clone(&lines);
+    let subscriber = tracing_subscriber::fmt()
+        .with_ansi(false)
+        .with_writer(move || Lines(Arc::clone(&to)))
+        .finish();
+    tracing::subscriber::with_default(subscriber, act);
+    String::from_utf8(lines.lock().unwrap().clone()).unwrap()
+}
+
+struct Lines(Arc<Mutex<Vec<u8>>>);
+
+impl Write for Lines {
+    fn write(&mut self, bytes: &[u8]) -> std::io::Result<usize> {
+        self.0.lock().unwrap().write(bytes)
+    }
+
+    fn flush(&mut self) -> std::io::Result<()> {
+        Ok(())
+    }
+}

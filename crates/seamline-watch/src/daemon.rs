@@ -1,33 +1,41 @@
 //! The watch folder: files in, results out, one bad file never in the way of the others.
 //!
-//! One thread looks into the folders and keeps the books; the others read, cut and write
-//! (`crew`). The bookkeeping is pure and tested apart: which file is ready ([`crate::tracker`]), which job
-//! may run (`backlog`).
+//! One thread looks into the folders and keeps the books (`books`); the others read, cut, write and deal with
+//! sources (`crew`). What each file has come to stands in the [`crate::ledger`], which the books alone write.
+//! The bookkeeping is pure where it can be and tested apart: which file is ready ([`crate::tracker`]), which job
+//! may run (`backlog`), when to try again ([`crate::retry`]).
 
 mod backlog;
+mod books;
 mod crew;
-mod finish;
 mod job;
 mod lookout;
+mod reload;
 
 use std::fs;
 use std::io;
 use std::path::PathBuf;
 use std::sync::Arc;
-use std::time::{Duration, Instant};
 
-use crossbeam_channel::{Receiver, RecvError, never, select};
-use seamline_ecs::Pipeline;
-use tracing::{error, info, warn};
+use crossbeam_channel::Receiver;
+use tracing::{info, warn};
 
 use crate::config::{After, Config};
 use crate::events::Events;
+use crate::health::{Health, Trouble};
+use crate::http::{self, ServeError};
+use crate::ledger::{Ledger, LedgerError};
+use crate::lock::{InstanceLock, LockError};
+use crate::metrics::Metrics;
+use crate::mounts::trusts_events;
 use crate::outputs::sweep_leftovers;
+use crate::setup::Setup;
 use crate::shown;
-use backlog::Backlog;
-use crew::Crew;
-use job::Outcome;
+use crate::{VERSION, service};
+use books::Books;
+use crew::{Crew, StartError};
 use lookout::Lookout;
+pub use reload::Reload;
 
 /// How the daemon is to run.
 #[derive(Clone, Copy, Debug, Default)]
@@ -38,15 +46,28 @@ pub struct RunOptions {
     pub dry_run: bool,
 }
 
+/// What the daemon can be told while it runs.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Order {
+    /// End what runs and stop. Said twice: stop at once.
+    Stop,
+    /// Read the configuration anew.
+    Reload,
+}
+
 /// What came of a run.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Summary {
     /// Jobs whose results are written.
     pub done: usize,
+    /// Jobs whose bytes had been cut before.
+    pub same: usize,
     /// Jobs that failed.
     pub failed: usize,
     /// Jobs that were waiting when the daemon was stopped; their files are where they were.
     pub dropped: usize,
+    /// Jobs that did not end in time when the daemon was stopped; they are done again.
+    pub unfinished: usize,
     /// Empty files, which wait for content.
     pub empty: usize,
     /// With `dry_run`: the files that would be taken, by folder and path.
@@ -64,12 +85,24 @@ pub enum WatchError {
         /// What the system says.
         error: io::Error,
     },
+    /// Another process works with the same state folder.
+    #[error("{0}")]
+    Locked(#[from] LockError),
+    /// The ledger cannot be used.
+    #[error("{0}")]
+    Ledger(#[from] LedgerError),
+    /// Health and metrics cannot be served.
+    #[error("{0}")]
+    Http(#[from] ServeError),
     /// The system gives no more threads.
     #[error("no thread can be started: {0}")]
     Threads(io::Error),
     /// The threads ended by themselves.
     #[error("the threads that read, cut and write have ended unexpectedly")]
     CrewLost,
+    /// So many meshes hang that going on is of no use.
+    #[error("{0} meshes hang in the pipeline")]
+    Hanging(usize),
 }
 
 impl WatchError {
@@ -77,185 +110,130 @@ impl WatchError {
     pub fn hint(&self) -> &'static str {
         match self {
             Self::Folder { .. } => "name a folder that may be written, or create it",
+            Self::Locked(error) => error.hint(),
+            Self::Ledger(error) => error.hint(),
+            Self::Http(error) => error.hint(),
             Self::Threads(_) => "set fewer `daemon.workers`, or raise the limit of processes",
             Self::CrewLost => {
                 "this is a mistake in the program: please report what was said before"
+            }
+            Self::Hanging(_) => {
+                "start again; `seamline status` tells which files were given up, choose another plugin for them"
             }
         }
     }
 }
 
-/// Watches the folders of `config` and sends what is dropped there through `pipeline`.
+/// Watches the folders of `setup` and sends what is dropped there through its pipeline.
 ///
-/// Ends when `stop` has a message: what runs is finished, what only waits is dropped and stays in its folder.
-/// With `once` it ends when everything that lay there at the start is dealt with. Creates the folders it
-/// writes to and deletes what crashed runs left unfinished in them.
+/// Ends when told to: what runs is finished, for as long as `daemon.drain_s` allows; what only waits stays in its
+/// folder and in the ledger. With `once` it ends when everything that lay there at the start is dealt
+/// with. Creates the folders it writes to and deletes what crashed runs left unfinished in them.
 ///
 /// # Errors
 ///
 /// [`WatchError`]. Files that cannot be cut are no error; they are counted in the summary.
 pub fn run(
-    config: Config,
-    pipeline: Arc<Pipeline>,
+    setup: Setup,
+    reload: Option<Reload>,
     options: RunOptions,
-    stop: Receiver<()>,
+    orders: Receiver<Order>,
 ) -> Result<Summary, WatchError> {
-    let mut lookout = Lookout::new(&config, options.once);
+    let mut lookout = Lookout::new(&setup.config, options.once);
     if options.dry_run {
         return Ok(Summary {
             listed: lookout.list(),
             ..Summary::default()
         });
     }
-    prepare(&config)?;
+    let config = &setup.config;
+    make_folders(config)?;
+    let _lock = InstanceLock::take(&config.state)?;
+    let ledger = open_ledger(config)?;
+    sweep(config);
+
+    let (health, metrics) = (Arc::new(Health::new()), Arc::new(Metrics::new(VERSION)));
+    health.raise(
+        Trouble::Starting,
+        "the folders have not been looked into yet",
+    );
+    let serving = config
+        .http
+        .map(|listen| http::serve(listen, health.clone(), metrics.clone()))
+        .transpose()?;
+    if let Some(serving) = &serving {
+        info!("listening on http://{}", serving.address());
+    }
     // Before the first look: what comes between the two is heard of, or seen.
-    let mut events = Events::listen(&config.watch);
+    let events = Events::listen(&config.watch);
     for watched in &config.watch {
-        info!("watching {}", watched.root.display());
+        info!("watching {}", shown(&watched.root));
     }
-    let crew = Crew::start(config, pipeline).map_err(WatchError::Threads)?;
-    let mut books = Books {
+    let crew =
+        Crew::start(&setup, health.clone(), metrics.clone()).map_err(|error| match error {
+            StartError::Threads(error) => WatchError::Threads(error),
+            StartError::Ledger(error) => WatchError::Ledger(error),
+        })?;
+    let books = Books {
+        setup: Arc::new(setup),
+        reload,
+        ledger,
         lookout,
-        backlog: Backlog::default(),
-        summary: Summary::default(),
+        events,
+        crew,
+        health,
+        metrics,
+        options,
+        orders,
     };
-    let kept = books.keep(&crew, &mut events, options.once, stop);
-    // On an error too: nothing new is begun, and threads that still live are let go.
-    crew.begin_nothing_new();
-    match kept {
-        Ok(()) => crew.join(),
-        Err(error) => return Err(error),
-    }
-    books.summary.empty = books.lookout.empty();
-    Ok(books.summary)
+    let ended = books.keep();
+    service::stopping();
+    ended
 }
 
-fn prepare(config: &Config) -> Result<(), WatchError> {
-    let done = config
-        .watch
-        .iter()
-        .any(|watched| watched.after == After::Move)
-        .then_some(&config.done);
-    for folder in [&config.output, &config.state, &config.quarantine]
-        .into_iter()
-        .chain(done)
-    {
-        let refused = |error| WatchError::Folder {
+pub(super) fn make_folders(config: &Config) -> Result<(), WatchError> {
+    for folder in written_to(config) {
+        fs::create_dir_all(folder).map_err(|error| WatchError::Folder {
             path: folder.clone(),
             error,
-        };
-        fs::create_dir_all(folder).map_err(refused)?;
-        sweep_leftovers(folder);
+        })?;
     }
     Ok(())
 }
 
-/// What is ready, what waits, what came of it.
-struct Books {
-    lookout: Lookout,
-    backlog: Backlog,
-    summary: Summary,
+fn written_to(config: &Config) -> impl Iterator<Item = &PathBuf> {
+    let moves = config
+        .watch
+        .iter()
+        .any(|watched| watched.after == After::Move);
+    [&config.output, &config.state, &config.quarantine]
+        .into_iter()
+        .chain(moves.then_some(&config.done))
 }
 
-impl Books {
-    /// Keeps the books until the daemon is to end, and then until the last running job has ended.
-    fn keep(
-        &mut self,
-        crew: &Crew,
-        events: &mut Events,
-        once: bool,
-        mut stop: Receiver<()>,
-    ) -> Result<(), WatchError> {
-        let mut hints = events.hints().clone();
-        loop {
-            if self.lookout.wait(Instant::now()).is_zero() {
-                for job in self.lookout.look() {
-                    self.backlog.add(job);
-                }
-            }
-            while crew.has_room()
-                && let Some(job) = self.backlog.next()
-            {
-                if !crew.hand_over(job) {
-                    return Err(WatchError::CrewLost);
-                }
-            }
-            let idle = self.backlog.running() == 0 && self.backlog.waiting() == 0;
-            if once && idle && self.lookout.is_settled() {
-                return Ok(());
-            }
-            // Room among the jobs comes without a message; it is looked for while jobs wait.
-            let most = if self.backlog.waiting() > 0 {
-                Duration::from_millis(50)
-            } else {
-                Duration::MAX
-            };
-            select! {
-                recv(crew.outcomes()) -> outcome => self.enter(outcome)?,
-                recv(hints) -> hint => match hint {
-                    Ok(()) => {
-                        events.take();
-                        self.lookout.hint();
-                    }
-                    // Nothing more will be heard; the periodic listing goes on.
-                    Err(RecvError) => hints = never(),
-                },
-                recv(stop) -> signal => match signal {
-                    Ok(()) => break,
-                    // Nobody is left who could stop the daemon, which is no reason to stop.
-                    Err(RecvError) => stop = never(),
-                },
-                default(self.lookout.wait(Instant::now()).min(most)) => {}
-            }
-        }
-        info!(
-            "stopping: {} running, {} waiting",
-            self.backlog.running(),
-            self.backlog.waiting()
-        );
-        crew.begin_nothing_new();
-        self.summary.dropped += self.backlog.drop_waiting();
-        while self.backlog.running() > 0 {
-            self.enter(crew.outcomes().recv())?;
-        }
-        Ok(())
+fn sweep(config: &Config) {
+    for folder in written_to(config) {
+        sweep_leftovers(folder);
     }
+}
 
-    fn enter(&mut self, outcome: Result<Outcome, RecvError>) -> Result<(), WatchError> {
-        let outcome = outcome.map_err(|_| WatchError::CrewLost)?;
-        self.backlog.ended(&outcome.job().path);
-        let path = shown(&outcome.job().path);
-        match &outcome {
-            Outcome::Done { patches, took, .. } => {
-                self.summary.done += 1;
-                info!(
-                    "{path}: cut in {:.2} s, patches: {patches}",
-                    took.as_secs_f64()
-                );
-            }
-            Outcome::Failed {
-                failure,
-                quarantined,
-                ..
-            } => {
-                self.summary.failed += 1;
-                let (stage, message, hint) = (failure.stage, &failure.message, &failure.hint);
-                match quarantined {
-                    Some(place) => {
-                        warn!(
-                            "{path}: {stage}: {message}; {hint}; moved to {}",
-                            place.display()
-                        );
-                    }
-                    None => error!("{path}: {stage}: {message}; {hint}"),
-                }
-            }
-            Outcome::Changed { job } => self.lookout.take_back(job),
-            Outcome::Gone { .. } => info!("{path}: gone before it was read"),
-            Outcome::Dropped { .. } => self.summary.dropped += 1,
-        }
-        Ok(())
+fn open_ledger(config: &Config) -> Result<Ledger, WatchError> {
+    if let Err(distrust) = trusts_events(&config.state) {
+        warn!(
+            "the state folder {} lies on a network file system ({}): the ledger may be damaged; \
+             set `state.dir` to a folder on a local disk",
+            shown(&config.state),
+            distrust.kind
+        );
     }
+    let mut ledger = Ledger::open(&config.state)?;
+    let (again, given_up) = ledger.recover(config.retry.attempts)?;
+    if again + given_up > 0 {
+        info!(
+            "the last run ended in the middle of its work: {again} to be done again, {given_up} given up"
+        );
+    }
+    Ok(ledger)
 }
 
 #[cfg(test)]

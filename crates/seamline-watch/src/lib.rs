@@ -12,23 +12,27 @@ pub mod events;
 pub mod health;
 pub mod http;
 pub mod include;
+pub mod ledger;
 pub mod load;
-pub mod metrics;
 pub mod lock;
+pub mod memory;
+pub mod metrics;
 pub mod mounts;
 pub mod outputs;
 pub mod quarantine;
 pub mod relocate;
+pub mod retry;
 pub mod scan;
 pub mod service;
+mod setup;
 mod shown;
 pub mod tracker;
 
 pub use config::{Config, ConfigError, ConfigFile};
-pub use daemon::{RunOptions, Summary, WatchError, run};
+pub use daemon::{Order, Reload, RunOptions, Summary, WatchError, run};
 pub use load::{LoadError, LoadedMesh, load, weld_share};
 pub use outputs::{JobFacts, OutputError, WriteSet, report, write_results};
-pub use scan::scan;
+pub use setup::Setup;
 pub use shown::shown;
 
 /// The version of the program, as reports name it.

@@ -65,6 +65,11 @@ impl LoadError {
         matches!(self, Self::Mesh { .. })
     }
 
+    /// Whether the bytes say of themselves that more were to come.
+    pub fn is_truncated(&self) -> bool {
+        matches!(self, Self::Mesh { error, .. } if error.is_truncated())
+    }
+
     /// The hash of the content, where it was read.
     pub fn hash(&self) -> Option<&str> {
         match self {
@@ -83,6 +88,19 @@ pub fn weld_share(settings_in_force: &toml::Table) -> f64 {
     share.and_then(toml::Value::as_float).unwrap_or(0.0)
 }
 
+/// The bytes of one file.
+#[derive(Clone, Debug)]
+pub struct FileBytes {
+    /// All of them.
+    pub bytes: Vec<u8>,
+    /// BLAKE3 of them, in hexadecimal.
+    pub hash: String,
+    /// The state of the file they were read from.
+    pub stamp: Stamp,
+    /// How long reading took, by the clock.
+    pub took: Duration,
+}
+
 /// Reads, hashes, parses and welds one file. Vertices are welded within `weld_share` of the diagonal of the
 /// bounding box; at 0 only those at the very same place are.
 ///
@@ -90,14 +108,64 @@ pub fn weld_share(settings_in_force: &toml::Table) -> f64 {
 ///
 /// [`LoadError`]; [`LoadError::Changed`] if the file is not the same after reading as it was before.
 pub fn load(path: &Path, weld_share: f64) -> Result<LoadedMesh, LoadError> {
+    mesh_of(read_file(path)?, path, weld_share)
+}
+
+/// The first bytes of a file, 512 at most.
+///
+/// # Errors
+///
+/// As [`load`] of files that cannot be read.
+pub fn read_head(path: &Path) -> Result<Vec<u8>, LoadError> {
+    let mut head = Vec::new();
+    open(path)?.take(512).read_to_end(&mut head)?;
+    Ok(head)
+}
+
+/// Reads and hashes one file.
+///
+/// # Errors
+///
+/// As [`load`], but for what the bytes say.
+pub fn read_file(path: &Path) -> Result<FileBytes, LoadError> {
     let started = Instant::now();
-    let (bytes, stamp) = read_at_rest(path)?;
-    let hash = blake3::hash(&bytes).to_hex().to_string();
+    let mut file = open(path)?;
+    let before = Stamp::of(&file.metadata()?);
+    let mut bytes = Vec::new();
+    // No more than there was: a file that grows faster than it is read would have no end.
+    let read = file
+        .by_ref()
+        .take(before.size + 1)
+        .read_to_end(&mut bytes)?;
+    let stamp = Stamp::of(&file.metadata()?);
+    if before != stamp || read as u64 != stamp.size {
+        return Err(LoadError::Changed);
+    }
+    Ok(FileBytes {
+        hash: blake3::hash(&bytes).to_hex().to_string(),
+        bytes,
+        stamp,
+        took: started.elapsed(),
+    })
+}
+
+/// Parses and welds what was read from `path`, as [`load`] does.
+///
+/// # Errors
+///
+/// [`LoadError::Mesh`].
+pub fn mesh_of(file: FileBytes, path: &Path, weld_share: f64) -> Result<LoadedMesh, LoadError> {
+    let started = Instant::now();
+    let FileBytes {
+        bytes,
+        hash,
+        stamp,
+        took,
+    } = file;
     let polygons = match read_bytes(&bytes, path) {
         Ok(polygons) => polygons,
         Err(error) => return Err(LoadError::Mesh { error, hash }),
     };
-    let bytes_len = bytes.len() as u64;
     drop(bytes);
     let format = polygons.format;
     let tolerance = tolerance_from_share(&polygons, weld_share);
@@ -106,26 +174,18 @@ pub fn load(path: &Path, weld_share: f64) -> Result<LoadedMesh, LoadError> {
         mesh,
         hash,
         format,
-        bytes_len,
+        bytes_len: stamp.size,
         stamp,
-        took: started.elapsed(),
+        took: took + started.elapsed(),
     })
 }
 
-fn read_at_rest(path: &Path) -> Result<(Vec<u8>, Stamp), LoadError> {
+fn open(path: &Path) -> Result<File, LoadError> {
     // Before opening: to open a pipe would wait for somebody to write into it.
     if !fs::metadata(path)?.is_file() {
         return Err(LoadError::NotAFile);
     }
-    let mut file = File::open(path)?;
-    let before = Stamp::of(&file.metadata()?);
-    let mut bytes = Vec::new();
-    file.read_to_end(&mut bytes)?;
-    let after = Stamp::of(&file.metadata()?);
-    if before != after || bytes.len() as u64 != after.size {
-        return Err(LoadError::Changed);
-    }
-    Ok((bytes, after))
+    Ok(File::open(path)?)
 }
 
 #[cfg(test)]

@@ -19,6 +19,8 @@ use seamline_mesh::write::{
 };
 use serde::{Deserialize, Serialize};
 
+use crate::retry::is_full_disk;
+
 pub use report::{JobFacts, REPORT_SCHEMA_VERSION, report};
 pub use sweep::sweep_leftovers;
 
@@ -146,6 +148,11 @@ impl OutputError {
             }
             Self::InTheWay { .. } => "move it away, or choose another output folder",
         }
+    }
+
+    /// Is there no more room on the disk?
+    pub fn is_full_disk(&self) -> bool {
+        matches!(self, Self::Io { error, .. } if is_full_disk(error))
     }
 
     fn io(path: &Path) -> impl FnOnce(io::Error) -> Self {

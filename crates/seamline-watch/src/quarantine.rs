@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 use serde::Serialize;
 
 use crate::outputs::{TEMPORARY_END, TEMPORARY_START};
-use crate::relocate::{move_aside, sync_folder};
+use crate::relocate::{move_aside_with, sync_folder};
 
 /// Why a file is in quarantine: what stands in `<name>.error.json`.
 #[derive(Clone, Debug, Serialize)]
@@ -31,20 +31,26 @@ pub struct Reason<'a> {
     pub settings: &'a toml::Table,
 }
 
-/// Moves a file to `quarantine/relative`, or to the first free name like it, and writes the reason beside it.
-/// The time of change is kept. Gives the place.
+/// Moves a file to `quarantine/relative`, or to the first free name like it, with the reason beside it. The
+/// reason is there before the file is, so that a crash leaves no file without one. The time of change is
+/// kept. Gives the place.
 ///
 /// # Errors
 ///
-/// Whatever the file system refuses. If only the reason could not be written, the file is in quarantine all
-/// the same.
+/// Whatever the file system refuses; the file is then where it was.
 pub fn put_aside(
     quarantine: &Path,
     relative: &Path,
     source: &Path,
     reason: &Reason<'_>,
 ) -> io::Result<PathBuf> {
-    let place = move_aside(source, &quarantine.join(relative))?;
+    let wanted = quarantine.join(relative);
+    move_aside_with(source, &wanted, &|place| {
+        write_reason(source, place, reason)
+    })
+}
+
+fn write_reason(source: &Path, place: &Path, reason: &Reason<'_>) -> io::Result<()> {
     let folder = place.parent().unwrap_or(Path::new("."));
     let mut text = tempfile::Builder::new()
         .prefix(TEMPORARY_START)
@@ -53,12 +59,11 @@ pub fn put_aside(
     serde_json::to_writer_pretty(text.as_file_mut(), reason)?;
     text.write_all(b"\n")?;
     text.as_file()
-        .set_permissions(fs::metadata(&place)?.permissions())?;
+        .set_permissions(fs::metadata(source)?.permissions())?;
     text.as_file().sync_all()?;
-    text.persist(reason_beside(&place))
+    text.persist(reason_beside(place))
         .map_err(|error| error.error)?;
-    sync_folder(folder)?;
-    Ok(place)
+    sync_folder(folder)
 }
 
 /// Where the reason for a file in quarantine stands.

@@ -22,11 +22,24 @@ const MOST_NAMES: u32 = 10_000;
 ///
 /// Whatever the file system refuses; the file is then where it was.
 pub fn move_aside(source: &Path, wanted: &Path) -> io::Result<PathBuf> {
+    move_aside_with(source, wanted, &|_| Ok(()))
+}
+
+/// As [`move_aside`]; `prepare` is called with each free place before the file is moved there.
+pub(crate) fn move_aside_with(
+    source: &Path,
+    wanted: &Path,
+    prepare: &dyn Fn(&Path) -> io::Result<()>,
+) -> io::Result<PathBuf> {
     if let Some(folder) = wanted.parent() {
         fs::create_dir_all(folder)?;
     }
     for number in 0..MOST_NAMES {
         let place = numbered(wanted, number);
+        if fs::symlink_metadata(&place).is_ok() {
+            continue;
+        }
+        prepare(&place)?;
         match rename_new(source, &place) {
             Ok(()) => return Ok(place),
             Err(error) if error.kind() == io::ErrorKind::AlreadyExists => {}

@@ -5,171 +5,138 @@
 //! names that are not finished ([`crate::include`]). A folder that may not be read is reported and does not
 //! keep the others from being read.
 
-use std::fs::{self, DirEntry};
+use std::fs::{self, Metadata};
 use std::io;
-use std::path::{Path, PathBuf};
+use std::path::{Component, Path, PathBuf};
 
 use crate::include::{Patterns, is_finished_name};
 use crate::tracker::{FileFact, Stamp};
 
-/// A listing of one watched folder.
+/// What one look found.
 #[derive(Debug, Default)]
 pub struct Listing {
     /// The files that are taken, by path.
     pub files: Vec<FileFact>,
+    /// Where nothing was found; only of a look at one place.
+    pub gone: Vec<PathBuf>,
     /// What could not be looked at, and why.
     pub unreadable: Vec<(PathBuf, io::Error)>,
 }
 
-/// Lists a folder.
-///
-/// # Errors
-///
-/// The folder itself cannot be read: nothing is known of its files, which is not the same as none there.
-pub fn scan(root: &Path, recursive: bool, include: &Patterns) -> io::Result<Listing> {
-    let mut listing = Listing::default();
-    let mut folders = Vec::new();
-    let mut entries = fs::read_dir(root)?;
-    loop {
-        for entry in entries {
-            match entry {
-                Ok(entry) => look_at(&entry, root, include, recursive, &mut folders, &mut listing),
-                Err(error) => listing.unreadable.push((root.to_owned(), error)),
+/// Which files of a folder are looked for.
+#[derive(Clone, Copy, Debug)]
+pub struct Search<'a> {
+    /// The folder.
+    pub root: &'a Path,
+    /// Look into folders below it too?
+    pub recursive: bool,
+    /// Which files are taken.
+    pub include: &'a Patterns,
+    /// Which are not, all the same.
+    pub exclude: &'a Patterns,
+}
+
+impl Search<'_> {
+    /// Lists the whole folder.
+    ///
+    /// # Errors
+    ///
+    /// The folder itself cannot be read: nothing is known of its files, which is not the same as none there.
+    pub fn all(&self) -> io::Result<Listing> {
+        let mut listing = Listing::default();
+        let mut folders = Vec::new();
+        self.list(self.root, &mut folders, &mut listing)?;
+        self.descend(folders, &mut listing);
+        listing.files.sort_by(|a, b| a.path.cmp(&b.path));
+        Ok(listing)
+    }
+
+    /// Looks at one place below the root, of which something was heard: a file, a folder with all below
+    /// it, or nothing any more. What is added to `listing` is what [`Search::all`] would have found there.
+    pub fn at(&self, path: &Path, listing: &mut Listing) {
+        let Ok(relative) = path.strip_prefix(self.root) else {
+            return;
+        };
+        let finished = |part| matches!(part, Component::Normal(name) if is_finished_name(name));
+        if relative.as_os_str().is_empty() || !relative.components().all(finished) {
+            return;
+        }
+        match fs::symlink_metadata(path) {
+            Ok(found) if found.is_dir() => {
+                if self.recursive {
+                    self.descend(vec![path.to_owned()], listing);
+                }
+            }
+            Ok(_) if !self.recursive && relative.components().count() > 1 => {}
+            Ok(_) => self.look_at_file(path, listing),
+            Err(error) if is_absent(&error) => listing.gone.push(path.to_owned()),
+            Err(error) => listing.unreadable.push((path.to_owned(), error)),
+        }
+    }
+
+    fn descend(&self, mut folders: Vec<PathBuf>, listing: &mut Listing) {
+        while let Some(folder) = folders.pop() {
+            match self.list(&folder, &mut folders, listing) {
+                Err(error) if is_absent(&error) => listing.gone.push(folder),
+                Err(error) => listing.unreadable.push((folder, error)),
+                Ok(()) => {}
             }
         }
-        entries = loop {
-            let Some(folder) = folders.pop() else {
-                listing.files.sort_by(|a, b| a.path.cmp(&b.path));
-                return Ok(listing);
+    }
+
+    fn list(
+        &self,
+        folder: &Path,
+        below: &mut Vec<PathBuf>,
+        listing: &mut Listing,
+    ) -> io::Result<()> {
+        for entry in fs::read_dir(folder)? {
+            let entry = match entry {
+                Ok(entry) => entry,
+                Err(error) => {
+                    listing.unreadable.push((folder.to_owned(), error));
+                    continue;
+                }
             };
-            match fs::read_dir(&folder) {
-                Ok(entries) => break entries,
-                Err(error) if error.kind() == io::ErrorKind::NotFound => {}
-                Err(error) => listing.unreadable.push((folder, error)),
+            if !is_finished_name(&entry.file_name()) {
+                continue;
             }
-        };
+            if !entry.file_type().is_ok_and(|kind| kind.is_dir()) {
+                self.look_at_file(&entry.path(), listing);
+            } else if self.recursive {
+                below.push(entry.path());
+            }
+        }
+        Ok(())
+    }
+
+    fn look_at_file(&self, path: &Path, listing: &mut Listing) {
+        let relative = path.strip_prefix(self.root).unwrap_or(path);
+        if !self.include.take(relative) || self.exclude.take(relative) {
+            return;
+        }
+        match fs::metadata(path) {
+            Ok(metadata) => listing.files.extend(fact(path, &metadata)),
+            // Gone since the folder was listed, or a link that leads nowhere.
+            Err(error) if is_absent(&error) => listing.gone.push(path.to_owned()),
+            Err(error) => listing.unreadable.push((path.to_owned(), error)),
+        }
     }
 }
 
-fn look_at(
-    entry: &DirEntry,
-    root: &Path,
-    include: &Patterns,
-    recursive: bool,
-    folders: &mut Vec<PathBuf>,
-    listing: &mut Listing,
-) {
-    let path = entry.path();
-    if !is_finished_name(&entry.file_name()) {
-        return;
-    }
-    if entry.file_type().is_ok_and(|kind| kind.is_dir()) {
-        if recursive {
-            folders.push(path);
-        }
-        return;
-    }
-    if !include.take(path.strip_prefix(root).unwrap_or(&path)) {
-        return;
-    }
-    match fs::metadata(&path) {
-        Ok(metadata) if metadata.is_file() => {
-            listing.files.push(FileFact {
-                path,
-                stamp: Stamp::of(&metadata),
-            });
-        }
-        Ok(_) => {}
-        // Gone since the folder was listed, or a link that leads nowhere.
-        Err(error) if error.kind() == io::ErrorKind::NotFound => {}
-        Err(error) => listing.unreadable.push((path, error)),
-    }
+fn fact(path: &Path, metadata: &Metadata) -> Option<FileFact> {
+    metadata.is_file().then(|| FileFact {
+        path: path.to_owned(),
+        stamp: Stamp::of(metadata),
+    })
+}
+
+fn is_absent(error: &io::Error) -> bool {
+    matches!(
+        error.kind(),
+        io::ErrorKind::NotFound | io::ErrorKind::NotADirectory
+    )
 }
 
 #[cfg(test)]
-mod tests {
-    use std::os::unix::fs::symlink;
-
-    use super::*;
-
-    fn folder() -> tempfile::TempDir {
-        let home = tempfile::tempdir().unwrap();
-        let root = home.path();
-        fs::create_dir_all(root.join("a/b")).unwrap();
-        fs::create_dir_all(root.join(".trash")).unwrap();
-        for name in [
-            "one.stl",
-            "TWO.STL",
-            "a/b/three.obj",
-            "a/notes.txt",
-            "a/four.stl.part",
-            ".trash/x.stl",
-            "._one.stl",
-        ] {
-            fs::write(root.join(name), "x").unwrap();
-        }
-        home
-    }
-
-    fn names(root: &Path, recursive: bool) -> Vec<String> {
-        let include = Patterns::new(&["*.stl", "*.obj", "*.part"]).unwrap();
-        let listing = scan(root, recursive, &include).unwrap();
-        assert!(listing.unreadable.is_empty());
-        let relative = |file: FileFact| file.path.strip_prefix(root).unwrap().display().to_string();
-        listing.files.into_iter().map(relative).collect()
-    }
-
-    #[test]
-    fn finished_files_that_match_are_listed_in_order() {
-        assert_eq!(
-            names(folder().path(), true),
-            ["TWO.STL", "a/b/three.obj", "one.stl"]
-        );
-    }
-
-    #[test]
-    fn without_recursion_only_the_folder_itself_is_listed() {
-        assert_eq!(names(folder().path(), false), ["TWO.STL", "one.stl"]);
-    }
-
-    #[test]
-    fn links_to_files_are_followed_and_links_to_folders_are_not() {
-        let home = folder();
-        symlink(home.path(), home.path().join("a/loop")).unwrap();
-        symlink(home.path().join("one.stl"), home.path().join("a/link.stl")).unwrap();
-        symlink(home.path().join("nowhere"), home.path().join("broken.stl")).unwrap();
-        assert_eq!(
-            names(home.path(), true),
-            ["TWO.STL", "a/b/three.obj", "a/link.stl", "one.stl"]
-        );
-    }
-
-    #[test]
-    fn pipes_and_folders_with_the_name_of_a_mesh_are_passed_over() {
-        let home = folder();
-        fs::create_dir(home.path().join("folder.stl")).unwrap();
-        let made = std::process::Command::new("mkfifo")
-            .arg(home.path().join("pipe.stl"))
-            .status();
-        assert!(made.is_ok_and(|status| status.success()));
-        assert_eq!(
-            names(home.path(), true),
-            ["TWO.STL", "a/b/three.obj", "one.stl"]
-        );
-    }
-
-    #[test]
-    fn odd_names_are_names() {
-        let home = tempfile::tempdir().unwrap();
-        for name in ["zwei Teile.stl", "neue\nZeile.stl", "Größe 1.stl"] {
-            fs::write(home.path().join(name), "x").unwrap();
-        }
-        assert_eq!(names(home.path(), true).len(), 3);
-    }
-
-    #[test]
-    fn a_root_that_is_gone_is_an_error_and_not_an_empty_folder() {
-        let include = Patterns::new(&["*"]).unwrap();
-        assert!(scan(Path::new("no/such/folder"), true, &include).is_err());
-    }
-}
+mod tests;

@@ -18,6 +18,8 @@ pub const REFUSED: usize = 3;
 pub const PANICS: usize = 4;
 /// A mesh of this many faces takes its time.
 pub const SLOW: usize = 5;
+/// A mesh of this many faces takes longer than anybody waits.
+pub const HANGS: usize = 12;
 
 /// The pipeline: one patch for every mesh, but for those of the sizes above.
 pub fn pipeline() -> Arc<Pipeline> {
@@ -43,6 +45,7 @@ fn obey(mesh: Res<InputMesh>) -> Result<(), StepError> {
             ));
         }
         PANICS => panic!("four faces\nare too many"),
+        HANGS => std::thread::sleep(Duration::from_secs(60)),
         SLOW => std::thread::sleep(Duration::from_millis(400)),
         _ => {}
     }

@@ -32,10 +32,7 @@ impl Outcome {
 
     /// Says the error and tells wrong use from everything else.
     pub fn of_error(error: anyhow::Error) -> Self {
-        match error.downcast_ref::<SettingsError>() {
-            Some(wrong) => say_error(&format!("{wrong}; {}", wrong.hint)),
-            None => say_error(&format!("{error:#}")),
-        }
+        say_error(&as_said(&error));
         let wrong_use =
             error.is::<SettingsError>() || error.is::<ConfigError>() || error.is::<WrongUse>();
         if wrong_use {
@@ -52,6 +49,14 @@ impl Outcome {
             Self::SomeFailed => 1,
             Self::WrongUse => 2,
         })
+    }
+}
+
+/// An error in one line, with what would be right.
+pub fn as_said(error: &anyhow::Error) -> String {
+    match error.downcast_ref::<SettingsError>() {
+        Some(wrong) => format!("{wrong}; {}", wrong.hint),
+        None => format!("{error:#}"),
     }
 }
 

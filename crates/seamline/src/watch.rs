@@ -1,62 +1,95 @@
 //! `seamline watch`: watch folders and cut every mesh that is dropped there.
 
 use std::io::{self, IsTerminal};
+use std::path::Path;
 use std::sync::Arc;
+use std::thread;
 
 use anyhow::{Context, Result};
-use seamline_watch::{Config, ConfigFile, RunOptions, shown};
-use signal_hook::consts::{SIGINT, SIGTERM};
+use crossbeam_channel::{Receiver, unbounded};
+use seamline_watch::config::{LogFormat, LogLevel, LogTable};
+use seamline_watch::{Config, ConfigFile, Order, Reload, RunOptions, Setup, WatchError, shown};
+use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
 use signal_hook::iterator::Signals;
 use tracing_subscriber::filter::LevelFilter;
 
 use crate::args::{SaidArgs, WatchArgs};
-use crate::outcome::Outcome;
+use crate::outcome::{Outcome, WrongUse, as_said};
 use crate::say::print;
 use crate::settings::{pipeline_of_file, pipeline_tables};
 
-/// Runs the daemon until it is drained (`--once`) or told to stop (Ctrl-C, SIGTERM).
+/// Runs the daemon until it is drained (`--once`) or told to stop (Ctrl-C, SIGTERM). SIGHUP has it read its
+/// configuration anew, as does a change of the file.
 pub fn run(args: &WatchArgs) -> Result<Outcome> {
-    let file = ConfigFile::read(&args.config, &pipeline_tables())?;
-    let pipeline = Arc::new(pipeline_of_file(&file)?);
-    let config = Config::from_file(&file)?;
-    log_to_standard_error(args.said);
+    let setup = read(&args.config)?;
+    log_to_standard_error(args.said, &setup.config.log);
 
-    let (stop, stopped) = crossbeam_channel::bounded(1);
-    let mut signals = Signals::new([SIGINT, SIGTERM]).context("signals cannot be handled")?;
-    std::thread::spawn(move || {
-        for _ in signals.forever() {
-            // Full means it has been said before.
-            let _ = stop.try_send(());
-        }
+    let file = args.config.clone();
+    let reload = Reload::new(&args.config, move || {
+        read(&file).map_err(|error| as_said(&error))
     });
-
     let options = RunOptions {
         once: args.once,
         dry_run: args.dry_run,
     };
-    let summary = seamline_watch::run(config, pipeline, options, stopped)
-        .map_err(|error| anyhow::anyhow!("{error}; {}", error.hint()))?;
+    let ran = seamline_watch::run(setup, Some(reload), options, orders()?);
+    let summary = match ran {
+        Err(error @ WatchError::Locked(_)) => {
+            return Err(WrongUse(format!("{error}; {}", error.hint())).into());
+        }
+        ran => ran.map_err(|error| anyhow::anyhow!("{error}; {}", error.hint()))?,
+    };
     for path in &summary.listed {
         print(&shown(path))?;
     }
-    Ok(if args.once {
-        Outcome::of_failures(summary.failed)
-    } else {
-        Outcome::Done
-    })
+    let unfinished = summary.unfinished > 0;
+    let failed = args.once && summary.failed > 0;
+    Ok(Outcome::of_failures(usize::from(unfinished || failed)))
 }
 
-fn log_to_standard_error(said: SaidArgs) {
-    let level = match said {
-        SaidArgs { quiet: true, .. } => LevelFilter::WARN,
-        SaidArgs { verbose: true, .. } => LevelFilter::DEBUG,
-        _ => LevelFilter::INFO,
+fn read(path: &Path) -> Result<Setup> {
+    let file = ConfigFile::read(path, &pipeline_tables())?;
+    let pipeline = Arc::new(pipeline_of_file(&file)?);
+    Ok(Setup::new(Config::from_file(&file)?, pipeline))
+}
+
+/// What the signals mean.
+fn orders() -> Result<Receiver<Order>> {
+    let (say, orders) = unbounded();
+    let mut signals =
+        Signals::new([SIGINT, SIGTERM, SIGHUP]).context("signals cannot be handled")?;
+    thread::Builder::new()
+        .name("signals".to_owned())
+        .spawn(move || {
+            for signal in signals.forever() {
+                let order = if signal == SIGHUP {
+                    Order::Reload
+                } else {
+                    Order::Stop
+                };
+                if say.send(order).is_err() {
+                    return;
+                }
+            }
+        })
+        .context("no thread can be started")?;
+    Ok(orders)
+}
+
+fn log_to_standard_error(said: SaidArgs, log: &LogTable) {
+    let level = match (said, log.level) {
+        (SaidArgs { quiet: true, .. }, _) | (_, LogLevel::Warn) => LevelFilter::WARN,
+        (SaidArgs { verbose: true, .. }, _) | (_, LogLevel::Debug) => LevelFilter::DEBUG,
+        (_, LogLevel::Error) => LevelFilter::ERROR,
+        (_, LogLevel::Info) => LevelFilter::INFO,
     };
-    tracing_subscriber::fmt()
+    let say = tracing_subscriber::fmt()
         .with_max_level(level)
         .with_target(false)
-        .with_ansi(io::stderr().is_terminal())
         .log_internal_errors(false)
-        .with_writer(io::stderr)
-        .init();
+        .with_writer(io::stderr);
+    match log.format {
+        LogFormat::Text => say.with_ansi(io::stderr().is_terminal()).init(),
+        LogFormat::Json => say.json().flatten_event(true).init(),
+    }
 }

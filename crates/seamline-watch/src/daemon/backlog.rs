@@ -1,115 +1,189 @@
-//! The jobs that wait, and the rule that one path is never worked on twice at the same time.
+//! The jobs that wait, and which of them may run: one path is never worked on twice at the same time, and
+//! neither are the same bytes.
 
-use std::collections::{HashSet, VecDeque};
+use std::collections::{BTreeMap, HashMap};
 use std::path::{Path, PathBuf};
+use std::time::Instant;
 
-use super::job::Job;
+use super::job::Waiting;
+use crate::ledger::JobId;
 
 /// Jobs in order of arrival; only names wait here, no meshes.
 #[derive(Debug, Default)]
 pub(super) struct Backlog {
-    waiting: VecDeque<Job>,
-    running: HashSet<PathBuf>,
+    waiting: BTreeMap<u64, Waiting>,
+    by_path: HashMap<PathBuf, u64>,
+    running: HashMap<PathBuf, JobId>,
+    /// Those that wait for a running job that works on the same bytes.
+    behind: HashMap<JobId, Vec<Waiting>>,
+    arrivals: u64,
 }
 
 impl Backlog {
     /// Takes a job in. A waiting one for the same path is replaced: only the latest content counts.
-    pub(super) fn add(&mut self, job: Job) {
-        match self
-            .waiting
-            .iter_mut()
-            .find(|waiting| waiting.path == job.path)
-        {
-            Some(waiting) => *waiting = job,
-            None => self.waiting.push_back(job),
+    pub(super) fn add(&mut self, job: Waiting) {
+        if let Some(at) = self.by_path.get(&job.path) {
+            self.waiting.insert(*at, job);
+            return;
+        }
+        self.arrivals += 1;
+        self.by_path.insert(job.path.clone(), self.arrivals);
+        self.waiting.insert(self.arrivals, job);
+    }
+
+    /// Takes in a job that came after another with the same bytes: it waits for the end of that one.
+    pub(super) fn add_behind(&mut self, job: Waiting, other: JobId) {
+        if self.running.values().any(|running| *running == other) {
+            self.behind.entry(other).or_default().push(job);
+        } else {
+            self.add(job);
         }
     }
 
-    /// Gives the first job whose path is not being worked on, and counts it as running. Were two runs on
-    /// one path under way, the results of the older content might be written last.
-    pub(super) fn next(&mut self) -> Option<Job> {
-        let at = self
-            .waiting
-            .iter()
-            .position(|job| !self.running.contains(&job.path))?;
-        let job = self.waiting.remove(at)?;
-        self.running.insert(job.path.clone());
+    /// Gives the first job that is due and whose path is not being worked on, and counts it as running. Were
+    /// two runs on one path under way, the results of the older content might be written last.
+    pub(super) fn next(&mut self, now: Instant) -> Option<Waiting> {
+        let may_run = |job: &Waiting| {
+            job.not_before.is_none_or(|due| due <= now) && !self.running.contains_key(&job.path)
+        };
+        let at = *self.waiting.iter().find(|(_, job)| may_run(job))?.0;
+        let job = self.waiting.remove(&at)?;
+        self.by_path.remove(&job.path);
+        self.running.insert(job.path.clone(), job.id);
         Some(job)
     }
 
-    /// The job on this path has ended.
+    /// Counts a job as running that never waited. False if its path is being worked on.
+    pub(super) fn start(&mut self, job: &Waiting) -> bool {
+        let free = !self.running.contains_key(&job.path);
+        if free {
+            self.running.insert(job.path.clone(), job.id);
+        }
+        free
+    }
+
+    /// The job on this path has ended; who waited for it waits no longer.
     pub(super) fn ended(&mut self, path: &Path) {
-        self.running.remove(path);
+        let Some(id) = self.running.remove(path) else {
+            return;
+        };
+        for job in self.behind.remove(&id).unwrap_or_default() {
+            self.add(job);
+        }
     }
 
-    /// Forgets what waits, and tells how much that was.
-    pub(super) fn drop_waiting(&mut self) -> usize {
-        std::mem::take(&mut self.waiting).len()
+    /// When the next job that waits for its time is due.
+    pub(super) fn next_due(&self) -> Option<Instant> {
+        self.waiting.values().filter_map(|job| job.not_before).min()
     }
 
-    /// How many jobs run.
-    pub(super) fn running(&self) -> usize {
-        self.running.len()
+    /// Forgets those that wait and do not `stay`.
+    pub(super) fn retain(&mut self, stay: impl Fn(&Waiting) -> bool) {
+        self.waiting.retain(|_, job| stay(job));
+        self.by_path.retain(|_, at| self.waiting.contains_key(at));
+    }
+
+    /// Is the job waiting or running?
+    pub(super) fn has(&self, path: &Path) -> bool {
+        self.by_path.contains_key(path) || self.running.contains_key(path)
+    }
+
+    /// The jobs that run.
+    pub(super) fn running(&self) -> impl ExactSizeIterator<Item = JobId> {
+        self.running.values().copied()
     }
 
     /// How many jobs wait.
     pub(super) fn waiting(&self) -> usize {
-        self.waiting.len()
+        self.waiting.len() + self.behind.values().map(Vec::len).sum::<usize>()
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use std::time::{Instant, SystemTime};
+    use std::time::Duration;
 
     use super::*;
     use crate::tracker::Stamp;
 
-    fn job(name: &str, size: u64) -> Job {
+    fn job(name: &str, id: i64) -> Waiting {
         let stamp = Stamp {
-            size,
-            modified: SystemTime::UNIX_EPOCH,
+            size: 1,
+            modified: (0, 0),
+            changed: (0, 0),
             identity: (1, 1),
         };
-        Job {
+        Waiting {
+            id: JobId(id),
             path: name.into(),
             relative: name.into(),
             stamp,
-            root: 0,
+            overdue: false,
             since: Instant::now(),
+            not_before: None,
+            failures: 0,
         }
+    }
+
+    fn next(backlog: &mut Backlog) -> Option<i64> {
+        backlog.next(Instant::now()).map(|job| job.id.0)
     }
 
     #[test]
     fn jobs_are_given_in_order_of_arrival() {
         let mut backlog = Backlog::default();
         backlog.add(job("b", 1));
-        backlog.add(job("a", 1));
-        assert_eq!(backlog.next().unwrap().path, Path::new("b"));
-        assert_eq!(backlog.next().unwrap().path, Path::new("a"));
-        assert_eq!((backlog.next(), backlog.running()), (None, 2));
+        backlog.add(job("a", 2));
+        assert_eq!([next(&mut backlog), next(&mut backlog)], [Some(1), Some(2)]);
+        assert_eq!((next(&mut backlog), backlog.running().len()), (None, 2));
     }
 
     #[test]
     fn a_path_that_is_worked_on_waits_and_lets_others_pass() {
         let mut backlog = Backlog::default();
         backlog.add(job("a", 1));
-        backlog.next();
+        next(&mut backlog);
         backlog.add(job("a", 2));
-        backlog.add(job("b", 1));
-        assert_eq!(backlog.next().unwrap().path, Path::new("b"));
-        assert_eq!(backlog.next(), None);
+        backlog.add(job("b", 3));
+        assert_eq!([next(&mut backlog), next(&mut backlog)], [Some(3), None]);
         backlog.ended(Path::new("a"));
-        assert_eq!(backlog.next().unwrap().stamp.size, 2);
+        assert_eq!(next(&mut backlog), Some(2));
     }
 
     #[test]
-    fn of_a_path_that_waits_only_the_latest_content_counts() {
+    fn of_a_path_that_waits_only_the_latest_content_counts_and_it_keeps_its_place() {
         let mut backlog = Backlog::default();
         backlog.add(job("a", 1));
-        backlog.add(job("a", 2));
-        assert_eq!(backlog.next().unwrap().stamp.size, 2);
+        backlog.add(job("b", 2));
+        backlog.add(job("a", 3));
+        assert_eq!([next(&mut backlog), next(&mut backlog)], [Some(3), Some(2)]);
+        assert_eq!(backlog.waiting(), 0);
+    }
+
+    #[test]
+    fn a_job_that_failed_lets_others_pass_until_its_time() {
+        let mut backlog = Backlog::default();
+        let due = Instant::now() + Duration::from_secs(60);
+        backlog.add(Waiting {
+            not_before: Some(due),
+            ..job("a", 1)
+        });
+        backlog.add(job("b", 2));
+        assert_eq!([next(&mut backlog), next(&mut backlog)], [Some(2), None]);
+        assert_eq!(backlog.next_due(), Some(due));
+        assert_eq!(backlog.next(due).map(|job| job.id.0), Some(1));
+    }
+
+    #[test]
+    fn the_same_bytes_wait_for_the_job_that_works_on_them() {
+        let mut backlog = Backlog::default();
+        backlog.add(job("a", 1));
+        next(&mut backlog);
+        backlog.add_behind(job("b", 2), JobId(1));
+        assert_eq!((next(&mut backlog), backlog.waiting()), (None, 1));
         backlog.ended(Path::new("a"));
-        assert_eq!(backlog.drop_waiting(), 0);
+        assert_eq!(next(&mut backlog), Some(2));
+        backlog.add_behind(job("c", 3), JobId(1));
+        assert_eq!(next(&mut backlog), Some(3));
     }
 }

@@ -1,90 +1,160 @@
-//! The threads: one reads, some cut, one writes, with bounded channels between them.
+//! The threads: one reads, some cut, one writes, one deals with sources, with channels between them.
 //!
-//! A slow disk or a slow mesh fills the channel behind it, and whoever comes before waits: no more meshes
-//! are in memory than the channels and the threads hold.
+//! A slow disk or a slow mesh fills the bounded channel behind it, and whoever comes before waits: no more
+//! meshes are in memory than the channels and the threads hold, and no more than the memory limit has room for.
 
+mod cutter;
+mod guard;
+mod reader;
+mod settler;
+mod writer;
+
+use std::collections::HashMap;
 use std::io;
-use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::sync::{Arc, Mutex, PoisonError};
 use std::thread::{Builder, JoinHandle};
+use std::time::{Duration, Instant};
 
-use crossbeam_channel::{Receiver, Sender, bounded};
-use seamline_ecs::{Pipeline, Worker};
+use crossbeam_channel::{Receiver, Sender, bounded, unbounded};
 
-use super::finish::finish;
-use super::job::{Failure, Finished, Job, Loaded, Outcome};
-use crate::config::Config;
-use crate::load::{LoadError, load, weld_share};
+use super::job::{Cut, Failure, Job, Loaded, Outcome, Remedy, Settle};
+use crate::health::Health;
+use crate::ledger::{Fault, JobId, LedgerError, Reader};
+use crate::memory::Gate;
+use crate::metrics::Metrics;
+use crate::setup::Setup;
 
 /// What all threads know.
 pub(super) struct Shared {
-    pub config: Config,
-    pub pipeline: Arc<Pipeline>,
+    pub gate: Gate,
+    pub health: Arc<Health>,
+    pub metrics: Arc<Metrics>,
+    /// Who works on which bytes, by their hash and that of the settings.
+    pub claims: Mutex<HashMap<(String, String), JobId>>,
+    /// The meshes that are being cut, and since when.
+    cutting: Mutex<HashMap<JobId, (Job, Instant)>>,
+    /// Cutters that were given up and have not come back.
+    abandoned: AtomicUsize,
     stopping: AtomicBool,
 }
 
 impl Shared {
-    fn is_stopping(&self) -> bool {
+    pub(super) fn is_stopping(&self) -> bool {
         self.stopping.load(Ordering::Relaxed)
     }
+
+    /// Runs one stage and notes how long it took by the clock.
+    fn timed<T>(&self, stage: &str, work: impl FnOnce() -> T) -> T {
+        let started = Instant::now();
+        let done = work();
+        self.metrics.stage_took(stage, started.elapsed());
+        done
+    }
+}
+
+/// Why the threads cannot be started.
+#[derive(Debug, thiserror::Error)]
+pub(super) enum StartError {
+    #[error("{0}")]
+    Threads(#[from] io::Error),
+    #[error("{0}")]
+    Ledger(#[from] LedgerError),
 }
 
 /// The threads, the way in and the way out.
 pub(super) struct Crew {
     jobs: Sender<Job>,
+    settle: Sender<Settle>,
     outcomes: Receiver<Outcome>,
+    cutters: Cutters,
     threads: Vec<JoinHandle<()>>,
     shared: Arc<Shared>,
 }
 
+/// What a new cutter needs: one is started in the place of each that is given up.
+struct Cutters {
+    to_cut: Receiver<Loaded>,
+    cut: Sender<Cut>,
+    outcome: Sender<Outcome>,
+    started: usize,
+}
+
 impl Crew {
     /// Starts the threads.
-    pub(super) fn start(config: Config, pipeline: Arc<Pipeline>) -> io::Result<Self> {
+    pub(super) fn start(
+        setup: &Setup,
+        health: Arc<Health>,
+        metrics: Arc<Metrics>,
+    ) -> Result<Self, StartError> {
+        let config = &setup.config;
         let shared = Arc::new(Shared {
-            config,
-            pipeline,
+            gate: Gate::new(crate::memory::limit(config.limits.memory_limit_bytes)),
+            health,
+            metrics,
+            claims: Mutex::default(),
+            cutting: Mutex::default(),
+            abandoned: AtomicUsize::new(0),
             stopping: AtomicBool::new(false),
         });
-        let queue = shared.config.queue;
-        let (jobs, to_read) = bounded(queue);
-        let (loaded, to_cut) = bounded(queue);
-        let (finished, to_write) = bounded(queue);
+        let (jobs, to_read) = bounded(config.queue);
+        let (loaded, to_cut) = bounded(config.queue);
+        let (cut, to_write) = bounded(config.queue);
+        // Names only, and of running jobs only.
+        let (settle, to_settle) = unbounded();
         // Room for some, so that nobody waits while the folders are being listed.
         let (outcome, outcomes) = bounded(256);
 
-        let mut threads = Vec::new();
-        let mut spawn = |name: String, work: Box<dyn FnOnce() + Send>| {
-            threads.push(Builder::new().name(name).spawn(work)?);
-            io::Result::Ok(())
-        };
-        for number in 0..shared.config.workers {
-            let (shared, to_cut) = (shared.clone(), to_cut.clone());
-            let (finished, outcome) = (finished.clone(), outcome.clone());
-            spawn(
-                format!("cut-{number}"),
-                Box::new(move || cut_all(&shared, &to_cut, &finished, &outcome)),
-            )?;
-        }
-        {
-            let (shared, outcome) = (shared.clone(), outcome.clone());
-            spawn(
-                "read".to_owned(),
-                Box::new(move || read_all(&shared, &to_read, &loaded, &finished, &outcome)),
-            )?;
-        }
-        {
-            let shared = shared.clone();
-            spawn(
-                "write".to_owned(),
-                Box::new(move || write_all(&shared, &to_write, &outcome)),
-            )?;
-        }
-        Ok(Self {
+        let mut crew = Self {
             jobs,
+            settle,
             outcomes,
-            threads,
-            shared,
+            cutters: Cutters {
+                to_cut,
+                cut,
+                outcome: outcome.clone(),
+                started: 0,
+            },
+            threads: Vec::new(),
+            shared: shared.clone(),
+        };
+        for _ in 0..config.workers {
+            crew.start_cutter()?;
+        }
+        let ledger = Reader::open(&config.state)?;
+        let of_reader = (shared.clone(), outcome.clone());
+        crew.spawn("read", move || {
+            reader::read_all(&of_reader.0, &ledger, &to_read, &loaded, &of_reader.1);
+        })?;
+        let of_writer = (shared.clone(), outcome.clone());
+        crew.spawn("write", move || {
+            writer::write_all(&of_writer.0, &to_write, &of_writer.1);
+        })?;
+        crew.spawn("settle", move || {
+            settler::settle_all(&shared, &to_settle, &outcome);
+        })?;
+        Ok(crew)
+    }
+
+    fn spawn(&mut self, name: &str, work: impl FnOnce() + Send + 'static) -> io::Result<()> {
+        let thread = Builder::new().name(name.to_owned()).spawn(work)?;
+        self.threads.push(thread);
+        Ok(())
+    }
+
+    fn start_cutter(&mut self) -> io::Result<()> {
+        let Cutters {
+            to_cut,
+            cut,
+            outcome,
+            started,
+        } = &mut self.cutters;
+        *started += 1;
+        let name = format!("cut-{started}");
+        let (to_cut, cut, outcome) = (to_cut.clone(), cut.clone(), outcome.clone());
+        let shared = self.shared.clone();
+        self.spawn(&name, move || {
+            cutter::cut_all(&shared, &to_cut, &cut, &outcome);
         })
     }
 
@@ -98,9 +168,77 @@ impl Crew {
         self.jobs.send(job).is_ok()
     }
 
-    /// Where outcomes come out: one for every job handed over.
+    /// Has the source of a job dealt with. False if the threads are gone.
+    pub(super) fn settle(&self, job: Job, failure: Option<Failure>) -> bool {
+        self.settle.send(Settle { job, failure }).is_ok()
+    }
+
+    /// Where outcomes come out.
     pub(super) fn outcomes(&self) -> &Receiver<Outcome> {
         &self.outcomes
+    }
+
+    /// The bytes this job worked on are free again.
+    pub(super) fn release(&self, id: JobId) {
+        let mut claims = self
+            .shared
+            .claims
+            .lock()
+            .unwrap_or_else(PoisonError::into_inner);
+        claims.retain(|_, holder| *holder != id);
+    }
+
+    /// Gives up the cutters that have been at one mesh for longer than its limit, and starts others in
+    /// their place. Gives the jobs that have thereby failed.
+    pub(super) fn give_up_overdue(&mut self, now: Instant) -> io::Result<Vec<(Job, Failure)>> {
+        let overdue: Vec<Job> = {
+            let mut cutting = self
+                .shared
+                .cutting
+                .lock()
+                .unwrap_or_else(PoisonError::into_inner);
+            let is_overdue = |(job, since): &(Job, Instant)| {
+                let limit = job.setup.config.limits.job_timeout_s;
+                limit > 0 && now.saturating_duration_since(*since) >= Duration::from_secs(limit)
+            };
+            let ids: Vec<_> = cutting
+                .iter()
+                .filter(|(_, cut)| is_overdue(cut))
+                .map(|(id, _)| *id)
+                .collect();
+            let taken = ids.iter().filter_map(|id| cutting.remove(id));
+            taken.map(|(job, _)| job).collect()
+        };
+        let mut failed = Vec::new();
+        for job in overdue {
+            self.shared.abandoned.fetch_add(1, Ordering::Relaxed);
+            self.start_cutter()?;
+            let limit = job.setup.config.limits.job_timeout_s;
+            let fault = Fault {
+                stage: "pipeline".to_owned(),
+                message: format!("was not cut within {limit} s"),
+                hint: "raise `limits.job_timeout_s`, or try another classifier or rectifier"
+                    .to_owned(),
+                of_content: false,
+            };
+            let failure = Failure {
+                fault,
+                content: None,
+                remedy: Remedy::None,
+            };
+            failed.push((job, failure));
+        }
+        Ok(failed)
+    }
+
+    /// How many cutters were given up and have not come back.
+    pub(super) fn abandoned(&self) -> usize {
+        self.shared.abandoned.load(Ordering::Relaxed)
+    }
+
+    /// The admission to memory.
+    pub(super) fn gate(&self) -> &Gate {
+        &self.shared.gate
     }
 
     /// From now on, what is not begun is not begun any more.
@@ -108,162 +246,16 @@ impl Crew {
         self.shared.stopping.store(true, Ordering::Relaxed);
     }
 
-    /// Waits for the threads to end; every outcome must have been taken.
+    /// Waits for the threads to end; every outcome must have been taken. Those that were given up are not
+    /// waited for.
     pub(super) fn join(self) {
-        drop(self.jobs);
+        let hanging = self.abandoned() > 0;
+        drop((self.jobs, self.settle, self.cutters));
         for thread in self.threads {
-            // A thread that panicked has said so on standard error; there is nothing left to save.
-            let _ = thread.join();
-        }
-    }
-}
-
-fn read_all(
-    shared: &Shared,
-    jobs: &Receiver<Job>,
-    loaded: &Sender<Loaded>,
-    finished: &Sender<Finished>,
-    outcome: &Sender<Outcome>,
-) {
-    let share = weld_share(shared.pipeline.settings_in_force());
-    for job in jobs {
-        let handed_on = if shared.is_stopping() {
-            outcome.send(Outcome::Dropped { job }).is_ok()
-        } else if let Some(failure) = taken_by_another_root(shared, &job) {
-            finished.send(Finished::Failed { job, failure }).is_ok()
-        } else {
-            match guarded("read", || load(&job.path, share)) {
-                Ok(Ok(mesh)) if mesh.stamp == job.stamp => {
-                    loaded.send(Loaded { job, mesh }).is_ok()
-                }
-                Ok(Ok(_) | Err(LoadError::Changed)) => {
-                    outcome.send(Outcome::Changed { job }).is_ok()
-                }
-                Ok(Err(LoadError::Io(error))) if error.kind() == io::ErrorKind::NotFound => {
-                    outcome.send(Outcome::Gone { job }).is_ok()
-                }
-                Ok(Err(error)) => {
-                    let failure = Failure {
-                        stage: "read",
-                        message: error.to_string(),
-                        hint: error.hint().to_owned(),
-                        hash: error.hash().map(str::to_owned),
-                        of_file: error.is_of_content(),
-                    };
-                    finished.send(Finished::Failed { job, failure }).is_ok()
-                }
-                Err(failure) => finished.send(Finished::Failed { job, failure }).is_ok(),
+            if !hanging {
+                // A thread that panicked has said so on standard error; there is nothing left to save.
+                let _ = thread.join();
             }
-        };
-        if !handed_on {
-            return;
         }
     }
-}
-
-/// Two watched folders may hold files of the same relative path, whose results would have the same place:
-/// the folder named first in the configuration has it.
-fn taken_by_another_root(shared: &Shared, job: &Job) -> Option<Failure> {
-    let below = job.relative.components().count() > 1;
-    let other = shared.config.watch[..job.root].iter().find(|other| {
-        (other.recursive || !below)
-            && other.include.take(&job.relative)
-            && other.root.join(&job.relative).is_file()
-    })?;
-    Some(Failure {
-        stage: "read",
-        message: format!(
-            "its results would replace those of {}",
-            other.root.join(&job.relative).display()
-        ),
-        hint: "give one of the two files another name".to_owned(),
-        hash: None,
-        of_file: true,
-    })
-}
-
-fn cut_all(
-    shared: &Shared,
-    to_cut: &Receiver<Loaded>,
-    finished: &Sender<Finished>,
-    outcome: &Sender<Outcome>,
-) {
-    let mut kept = None;
-    for Loaded { job, mesh } in to_cut {
-        if shared.is_stopping() {
-            if outcome.send(Outcome::Dropped { job }).is_err() {
-                return;
-            }
-            continue;
-        }
-        let mut worker = kept.take();
-        let cut = guarded("pipeline", || {
-            let worker = worker.get_or_insert_with(|| Worker::new(shared.pipeline.clone()));
-            worker.segment(mesh.mesh.clone())
-        });
-        let failed = |stage, message, hint| Failure {
-            stage,
-            message,
-            hint,
-            hash: None,
-            of_file: true,
-        };
-        let cut = match cut {
-            Ok(Ok(segmentation)) => Ok(Box::new(segmentation)),
-            Ok(Err(error)) => Err(failed(error.stage.name(), error.message, error.hint)),
-            Err(panicked) => {
-                // Its world may be half changed: the next mesh gets a new one.
-                let broken = worker.take();
-                let _ = catch_unwind(AssertUnwindSafe(|| drop(broken)));
-                Err(panicked)
-            }
-        };
-        kept = worker;
-        let result = match cut {
-            Ok(segmentation) => Finished::Cut {
-                job,
-                mesh,
-                segmentation,
-            },
-            Err(failure) => Finished::Failed {
-                job,
-                failure: Failure {
-                    hash: Some(mesh.hash),
-                    ..failure
-                },
-            },
-        };
-        if finished.send(result).is_err() {
-            return;
-        }
-    }
-}
-
-fn write_all(shared: &Shared, to_write: &Receiver<Finished>, outcome: &Sender<Outcome>) {
-    for finished in to_write {
-        if outcome.send(finish(shared, finished)).is_err() {
-            return;
-        }
-    }
-}
-
-/// Runs work that may panic; the panic is one failed job.
-fn guarded<T>(stage: &'static str, work: impl FnOnce() -> T) -> Result<T, Failure> {
-    catch_unwind(AssertUnwindSafe(work)).map_err(|panic| {
-        let said = panic.downcast_ref::<&str>().copied();
-        let said = said.or_else(|| panic.downcast_ref::<String>().map(String::as_str));
-        let said = said
-            .unwrap_or("no message")
-            .split_whitespace()
-            .collect::<Vec<_>>()
-            .join(" ");
-        Failure {
-            stage,
-            message: format!("panicked: {said}"),
-            hint: "this is a mistake in the program or a plugin: please report it with the file"
-                .to_owned(),
-            hash: None,
-            of_file: true,
-        }
-    })
 }

@@ -1,91 +1,148 @@
-//! What passes from thread to thread: a job on its way from a ready file to its outcome.
+//! What passes from thread to thread: a job on its way from a ready file to its end.
 
+use std::io;
 use std::path::PathBuf;
-use std::time::{Duration, Instant};
+use std::sync::Arc;
+use std::time::Instant;
 
 use seamline_ecs::Segmentation;
+use tracing::Span;
 
+use crate::config::After;
+use crate::ledger::{Fault, JobId};
 use crate::load::LoadedMesh;
+use crate::memory::Pass;
+use crate::setup::Setup;
 use crate::tracker::Stamp;
 
-/// A file that is to be cut.
+/// A file that is to be cut, as it waits: no more than its name.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Job {
+pub(super) struct Waiting {
+    /// Its row in the ledger.
+    pub id: JobId,
     /// The file.
     pub path: PathBuf,
     /// Its path within the watched folder.
     pub relative: PathBuf,
     /// The state in which it held still.
     pub stamp: Stamp,
-    /// The number of its `[[watch]]`.
-    pub root: usize,
+    /// It has ended early for so long that nothing more is to be expected.
+    pub overdue: bool,
     /// When it was found ready.
     pub since: Instant,
+    /// It failed, and is not to be tried again before this time.
+    pub not_before: Option<Instant>,
+    /// How often it has failed since the daemon was started.
+    pub failures: u32,
+}
+
+/// A job that is worked on.
+#[derive(Clone)]
+pub(super) struct Job {
+    /// What waited.
+    pub file: Waiting,
+    /// What it is done with, from beginning to end.
+    pub setup: Arc<Setup>,
+    /// What becomes of the file.
+    pub after: After,
+    /// How often it has been begun, this time included.
+    pub attempts: u32,
+    /// What is said meanwhile is said of this job.
+    pub span: Span,
+}
+
+/// What a failure means for the job.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Remedy {
+    /// None: quarantine.
+    None,
+    /// Try again, so many times.
+    Again,
+    /// Try again for as long as it takes: the file is not at fault.
+    AgainForEver,
 }
 
 /// Why a job failed.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Failure {
-    /// Where: `read`, a stage of the pipeline, `write`.
-    pub stage: &'static str,
-    /// What went wrong, in one line.
-    pub message: String,
-    /// What would be right.
-    pub hint: String,
+    /// Where, what, and what would be right.
+    pub fault: Fault,
     /// BLAKE3 of the file, where it was read.
-    pub hash: Option<String>,
-    /// Is the file at fault, so that it goes into quarantine?
-    pub of_file: bool,
+    pub content: Option<String>,
+    /// What it means for the job.
+    pub remedy: Remedy,
 }
 
-/// A job on its way to the workers.
+/// A job on its way to the cutters.
 pub(super) struct Loaded {
     pub job: Job,
     pub mesh: LoadedMesh,
+    pub pass: Pass,
 }
 
 /// A job on its way to the writer.
-pub(super) enum Finished {
-    /// Patches to be written.
-    Cut {
-        job: Job,
-        mesh: LoadedMesh,
-        segmentation: Box<Segmentation>,
-    },
-    /// A failure to be dealt with.
-    Failed { job: Job, failure: Failure },
+pub(super) struct Cut {
+    pub job: Job,
+    pub mesh: LoadedMesh,
+    pub segmentation: Box<Segmentation>,
+    /// The memory it takes, until this is dropped.
+    pub pass: Pass,
 }
 
-/// How a job ended.
+/// A source to be dealt with, now that the ledger says what became of the job.
+pub(super) struct Settle {
+    pub job: Job,
+    /// Why it goes into quarantine; nothing if its results are written.
+    pub failure: Option<Failure>,
+}
+
+/// What the threads have to say of a job.
 pub(super) enum Outcome {
-    /// Results are written.
-    Done {
+    /// Results are on disk.
+    Written {
         job: Job,
+        content: String,
         patches: usize,
-        took: Duration,
+        result: PathBuf,
     },
-    /// There are none.
-    Failed {
+    /// The same bytes were cut before.
+    Same {
         job: Job,
-        failure: Failure,
-        quarantined: Option<PathBuf>,
+        content: String,
+        holder: JobId,
+        path: PathBuf,
     },
+    /// The same bytes are being worked on.
+    Behind { job: Job, other: JobId },
+    /// There are no results.
+    Failed { job: Job, failure: Failure },
+    /// The file says of itself that there is more to come.
+    EndsEarly { job: Job, failure: Failure },
     /// The file changed before it was read: it was not ready after all.
     Changed { job: Job },
     /// The file went away before it was read.
     Gone { job: Job },
     /// Not begun, because the daemon stops.
     Dropped { job: Job },
+    /// The source was dealt with; where it was put, an empty path if it was deleted, nothing if it stays.
+    Settled {
+        job: Job,
+        place: io::Result<Option<PathBuf>>,
+    },
 }
 
 impl Outcome {
     pub(super) fn job(&self) -> &Job {
         match self {
-            Self::Done { job, .. }
+            Self::Written { job, .. }
+            | Self::Same { job, .. }
+            | Self::Behind { job, .. }
             | Self::Failed { job, .. }
+            | Self::EndsEarly { job, .. }
             | Self::Changed { job }
             | Self::Gone { job }
-            | Self::Dropped { job } => job,
+            | Self::Dropped { job }
+            | Self::Settled { job, .. } => job,
         }
     }
 }

@@ -1,16 +1,37 @@
 //! Looks into the watched folders, when there is reason to, and says which files are ready.
 
-use std::collections::HashSet;
-use std::io;
+mod root;
+
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
-use tracing::{info, warn};
+use crate::config::Config;
+use crate::events::{Events, Hint};
+use crate::tracker::{ReadyFile, Stamp};
+use root::Root;
 
-use super::job::Job;
-use crate::config::{Config, Watched};
-use crate::scan::{Listing, scan};
-use crate::tracker::StabilityTracker;
+/// How often it is looked whether the folders are there.
+const PRESENCE_EVERY: Duration = Duration::from_secs(1);
+
+/// A file that has held still.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Ready {
+    /// The file.
+    pub file: ReadyFile,
+    /// Its path within the watched folder.
+    pub relative: PathBuf,
+}
+
+/// What a look has found.
+#[derive(Debug, Default)]
+pub(super) struct Look {
+    /// Files that have become ready.
+    pub ready: Vec<Ready>,
+    /// How many folders were listed as a whole.
+    pub scans: usize,
+    /// How often the system has lost count of the changes.
+    pub overflows: usize,
+}
 
 /// The watched folders, a tracker for each, and the time of the next look.
 pub(super) struct Lookout {
@@ -20,36 +41,41 @@ pub(super) struct Lookout {
     rescan_every: Duration,
     looked_at: Option<Instant>,
     hinted: bool,
-    /// With `--once`: the files of the first look, the only ones that count.
-    only: Option<HashSet<PathBuf>>,
     once: bool,
-}
-
-struct Root {
-    watched: Watched,
-    tracker: StabilityTracker,
-    /// What could not be read at the last look: each is said once.
-    unreadable: HashSet<PathBuf>,
 }
 
 impl Lookout {
     pub(super) fn new(config: &Config, once: bool) -> Self {
-        let root = |watched: &Watched| Root {
-            watched: watched.clone(),
-            tracker: StabilityTracker::new(watched.stable_for),
-            unreadable: HashSet::new(),
-        };
-        let shortest = config.watch.iter().map(|watched| watched.stable_for).min();
-        let glance_every = shortest.unwrap_or_default() / 4;
-        Self {
-            roots: config.watch.iter().map(root).collect(),
-            glance_every: glance_every.clamp(Duration::from_millis(10), Duration::from_secs(1)),
-            rescan_every: config.rescan_every,
+        let mut lookout = Self {
+            roots: Vec::new(),
+            glance_every: Duration::ZERO,
+            rescan_every: Duration::ZERO,
             looked_at: None,
             hinted: false,
-            only: None,
             once,
+        };
+        lookout.retarget(config);
+        lookout
+    }
+
+    /// From now on another configuration holds. What is known of a folder that is watched as before stays
+    /// known; every folder is listed anew.
+    pub(super) fn retarget(&mut self, config: &Config) {
+        let mut before = std::mem::take(&mut self.roots);
+        for watched in &config.watch {
+            let known = before
+                .iter()
+                .position(|root| root.watched().root == watched.root);
+            self.roots.push(match known {
+                Some(known) => before.swap_remove(known).with(watched.clone()),
+                None => Root::new(watched.clone()),
+            });
         }
+        let shortest = config.watch.iter().map(|watched| watched.stable_for).min();
+        let glance_every = shortest.unwrap_or_default() / 4;
+        self.glance_every = glance_every.clamp(Duration::from_millis(10), Duration::from_secs(1));
+        self.rescan_every = config.rescan_every;
+        self.looked_at = None;
     }
 
     /// Something changed: look soon.
@@ -62,116 +88,118 @@ impl Lookout {
         let Some(looked_at) = self.looked_at else {
             return Duration::ZERO;
         };
-        let soon = self.hinted || !self.is_settled();
-        let every = if soon {
-            self.glance_every
-        } else {
-            self.rescan_every
-        };
-        (looked_at + every).saturating_duration_since(now)
+        let soon = self.hinted || self.roots.iter().any(|root| root.tracker.is_settling());
+        let mut due = looked_at
+            + if soon {
+                self.glance_every
+            } else {
+                PRESENCE_EVERY
+            };
+        for root in &self.roots {
+            let next = root
+                .next_listing
+                .into_iter()
+                .chain(root.tracker.next_ready());
+            due = next.fold(due, Instant::min);
+        }
+        // However much is due, there is a pause between two looks.
+        due.max(looked_at + self.glance_every.min(PRESENCE_EVERY))
+            .saturating_duration_since(now)
     }
 
-    /// Looks into every folder; gives the files that became ready.
-    pub(super) fn look(&mut self) -> Vec<Job> {
+    /// Looks wherever there is reason to.
+    pub(super) fn look(&mut self, events: &mut Events) -> Look {
+        let mut look = Look::default();
         self.hinted = false;
-        let mut ready = Vec::new();
-        let mut seen = HashSet::new();
-        for (number, root) in self.roots.iter_mut().enumerate() {
-            let Some(mut listing) = root.list() else {
-                continue;
-            };
-            match &self.only {
-                Some(only) => listing.files.retain(|file| only.contains(&file.path)),
-                None if self.once => {
-                    seen.extend(listing.files.iter().map(|file| file.path.clone()))
+        for hint in events.take() {
+            match hint {
+                Hint::Changed(path) => self.note(&path),
+                Hint::Everything { overflow } => {
+                    look.overflows += usize::from(overflow);
+                    self.roots.iter_mut().for_each(Root::list_next);
                 }
-                None => {}
             }
-            let now = Instant::now();
-            ready.extend(
-                root.tracker
-                    .step(now, &listing.files)
-                    .into_iter()
-                    .map(|file| Job {
-                        relative: root.relative(&file.path),
-                        path: file.path,
-                        stamp: file.stamp,
-                        root: number,
-                        since: now,
-                    }),
-            );
         }
-        if self.once {
-            self.only.get_or_insert(seen);
+        let first = self.looked_at.is_none();
+        for root in &mut self.roots {
+            root.check_presence(events);
+            // With `once` only what lies there at the first look counts.
+            let may_list = first || !self.once;
+            if may_list && (first || root.is_listing_due(Instant::now())) {
+                let every = if events.is_polled(&root.watched().root) {
+                    root.watched().poll_every
+                } else {
+                    self.rescan_every
+                };
+                look.scans += 1;
+                look.ready.extend(root.list(every));
+            } else {
+                look.ready.extend(root.glance(may_list));
+            }
         }
         self.looked_at = Some(Instant::now());
-        ready
+        look
+    }
+
+    fn note(&mut self, path: &Path) {
+        if let Some(root) = self.root_of(path) {
+            root.note(path);
+        }
+    }
+
+    fn root_of(&mut self, path: &Path) -> Option<&mut Root> {
+        self.roots
+            .iter_mut()
+            .filter(|root| path.starts_with(&root.watched().root))
+            .max_by_key(|root| root.watched().root.as_os_str().len())
     }
 
     /// Every file that would be taken if it held still.
     pub(super) fn list(&mut self) -> Vec<PathBuf> {
-        let listings = self.roots.iter_mut().filter_map(Root::list);
-        let files = listings.flat_map(|listing| listing.files);
-        files
-            .filter(|file| file.stamp.size > 0)
-            .map(|file| file.path)
-            .collect()
+        self.roots.iter_mut().flat_map(Root::names).collect()
     }
 
-    /// The job's file was not ready after all.
-    pub(super) fn take_back(&mut self, job: &Job) {
-        self.roots[job.root]
-            .tracker
-            .take_back(Instant::now(), &job.path, job.stamp);
+    /// The file was not ready after all.
+    pub(super) fn take_back(&mut self, path: &Path, stamp: Stamp) {
+        if let Some(root) = self.root_of(path) {
+            root.tracker.take_back(Instant::now(), path, stamp);
+        }
     }
 
-    /// Is no file left that is still to become ready? Empty files, which wait for content, apart.
+    /// The file says that there is more of it to come.
+    pub(super) fn ends_early(&mut self, path: &Path, stamp: Stamp) {
+        if let Some(root) = self.root_of(path) {
+            root.tracker.ends_early(path, stamp);
+        }
+    }
+
+    /// The file is to be given again.
+    pub(super) fn look_again(&mut self, path: &Path) {
+        if let Some(root) = self.root_of(path) {
+            root.tracker.look_again(Instant::now(), path);
+        }
+    }
+
+    /// Is nothing known to be at this path, although its folder was looked into?
+    pub(super) fn is_missing(&mut self, path: &Path) -> bool {
+        self.root_of(path)
+            .is_some_and(|root| !root.is_away() && !root.tracker.knows(path))
+    }
+
+    /// Is no file left that is still to hold still? Empty files, and those that end early, apart.
     pub(super) fn is_settled(&self) -> bool {
-        self.roots.iter().all(|root| root.tracker.unsettled() == 0)
+        self.looked_at.is_some() && self.roots.iter().all(|root| !root.tracker.is_settling())
     }
 
     /// How many files are empty.
     pub(super) fn empty(&self) -> usize {
         self.roots.iter().map(|root| root.tracker.empty()).sum()
     }
-}
 
-impl Root {
-    fn relative(&self, path: &Path) -> PathBuf {
-        path.strip_prefix(&self.watched.root)
-            .unwrap_or(path)
-            .to_owned()
-    }
-
-    /// Lists the folder; nothing if it cannot be read. What cannot is said when it begins and when it ends.
-    fn list(&mut self) -> Option<Listing> {
-        let listed = scan(
-            &self.watched.root,
-            self.watched.recursive,
-            &self.watched.include,
-        );
-        let (listing, unreadable) = match listed {
-            Ok(mut listing) => {
-                let unreadable = std::mem::take(&mut listing.unreadable);
-                (Some(listing), unreadable)
-            }
-            Err(error) => (None, vec![(self.watched.root.clone(), error)]),
-        };
-        self.say(&unreadable);
-        listing
-    }
-
-    fn say(&mut self, unreadable: &[(PathBuf, io::Error)]) {
-        for (path, error) in unreadable
+    /// Every watched folder, and why it is away if it is.
+    pub(super) fn presence(&self) -> impl Iterator<Item = (&Path, Option<&str>)> {
+        self.roots
             .iter()
-            .filter(|(path, _)| !self.unreadable.contains(path))
-        {
-            warn!("{} cannot be read: {error}", path.display());
-        }
-        let now: HashSet<_> = unreadable.iter().map(|(path, _)| path.clone()).collect();
-        for path in self.unreadable.difference(&now) {
-            info!("{} can be read again", path.display());
-        }
-        self.unreadable = now;
+            .map(|root| (root.watched().root.as_path(), root.away()))
     }
 }

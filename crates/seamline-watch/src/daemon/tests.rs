@@ -1,10 +1,12 @@
 use std::path::Path;
 use std::thread;
+use std::time::Duration;
 
-use crossbeam_channel::{Sender, bounded};
+use crossbeam_channel::{Sender, bounded, never};
 
 use super::*;
-use crate::test_support::{PANICS, REFUSED, SLOW, pipeline, strip};
+use crate::ledger::{JobState, Reader, Row, requeue};
+use crate::test_support::{HANGS, PANICS, REFUSED, SLOW, pipeline, strip};
 
 /// A folder with `inbox` in it, and a configuration that watches it.
 struct Home(tempfile::TempDir);
@@ -20,8 +22,13 @@ impl Home {
         self.0.path().join(name)
     }
 
-    /// Drops a mesh of some faces into the folder.
+    /// Drops a mesh of some faces into the folder, of a content no other name has.
     fn drop(&self, name: &str, faces: usize) {
+        self.drop_text(name, &format!("# {name}\n{}", strip(faces)));
+    }
+
+    /// Drops a mesh of some faces, the same under every name.
+    fn drop_plain(&self, name: &str, faces: usize) {
         self.drop_text(name, &strip(faces));
     }
 
@@ -38,10 +45,19 @@ impl Home {
     fn config_stable_for(&self, stable_for_ms: u64, more: &str) -> Config {
         let path = self.at("watch.toml");
         let text = format!(
-            "[[watch]]\nroot = 'inbox'\nstable_for_ms = {stable_for_ms}\n{more}\n[daemon]\nworkers = 2\nqueue = 1\n"
+            "[[watch]]\nroot = 'inbox'\nstable_for_ms = {stable_for_ms}\n{more}\n[daemon]\nworkers = 2\nqueue = 1\n\
+             [retry]\nattempts = 2\nfirst_ms = 20\n"
         );
         fs::write(&path, text).unwrap();
         Config::load(&path, &[]).unwrap()
+    }
+
+    fn rows(&self) -> Vec<Row> {
+        Reader::open(&self.at("state")).unwrap().rows().unwrap()
+    }
+
+    fn states(&self) -> Vec<JobState> {
+        self.rows().iter().map(|row| row.state).collect()
     }
 
     fn once(&self, more: &str) -> Summary {
@@ -49,7 +65,7 @@ impl Home {
             once: true,
             dry_run: false,
         };
-        run(self.config(more), pipeline(), options, never()).unwrap()
+        run(setup(self.config(more)), None, options, never()).unwrap()
     }
 
     fn start(&self) -> Running {
@@ -71,21 +87,25 @@ impl Home {
     }
 }
 
+fn setup(config: Config) -> Setup {
+    Setup::new(config, pipeline())
+}
+
 struct Running {
-    stop: Sender<()>,
+    stop: Sender<Order>,
     thread: thread::JoinHandle<Result<Summary, WatchError>>,
 }
 
 impl Running {
     fn stop(self) -> Summary {
-        self.stop.send(()).unwrap();
+        self.stop.send(Order::Stop).unwrap();
         self.thread.join().unwrap().unwrap()
     }
 }
 
 fn start(config: Config) -> Running {
     let (stop, stopped) = bounded(1);
-    let thread = thread::spawn(move || run(config, pipeline(), RunOptions::default(), stopped));
+    let thread = thread::spawn(move || run(setup(config), None, RunOptions::default(), stopped));
     Running { stop, thread }
 }
 
@@ -243,7 +263,7 @@ fn a_dry_run_says_what_would_be_taken_and_does_nothing() {
         once: false,
         dry_run: true,
     };
-    let summary = run(home.config(""), pipeline(), options, never()).unwrap();
+    let summary = run(setup(home.config("")), None, options, never()).unwrap();
     let inbox = home.at("inbox").canonicalize().unwrap();
     assert_eq!(summary.listed, [inbox.join("a/a.obj"), inbox.join("b.obj")]);
     assert!(!home.at("out").exists() && !home.at("state").exists());
@@ -291,10 +311,140 @@ fn a_folder_that_cannot_be_created_ends_the_daemon_with_its_name() {
     let home = Home::new();
     let config = home.config("");
     fs::write(home.at("out"), "a file").unwrap();
-    let error = run(config, pipeline(), RunOptions::default(), never()).unwrap_err();
+    let error = run(setup(config), None, RunOptions::default(), never()).unwrap_err();
     assert!(
         error.to_string().contains("out cannot be created"),
         "{error}"
     );
     assert!(Path::new(&home.at("out")).is_file());
+}
+
+#[test]
+fn what_was_done_before_a_restart_is_not_done_again() {
+    let home = Home::new();
+    home.drop("part.obj", 2);
+    assert_eq!(home.once(""), summary(1, 0));
+    assert_eq!(home.once(""), summary(0, 0));
+    home.drop("part.obj", 3);
+    home.drop("part.obj", 6);
+    assert_eq!(home.once(""), summary(1, 0));
+    assert_eq!(home.states(), [JobState::Done, JobState::Done]);
+    assert_eq!(home.rows()[0].result, None);
+}
+
+#[test]
+fn the_same_content_under_another_name_is_not_cut_again() {
+    let home = Home::new();
+    home.drop_plain("a.obj", 2);
+    home.drop_plain("b.obj", 2);
+    home.drop_plain("c/a.obj", 2);
+    let both = home.once("");
+    assert_eq!((both.done, both.same, both.failed), (1, 2, 0));
+    let rows = home.rows();
+    let holder = rows.iter().find(|row| row.result.is_some()).unwrap();
+    assert!(
+        rows.iter()
+            .all(|row| row.state == JobState::Done && row.content == holder.content)
+    );
+    assert_eq!(
+        rows.iter()
+            .filter(|row| row.same_as == Some(holder.id))
+            .count(),
+        2
+    );
+}
+
+#[test]
+fn content_whose_results_were_replaced_is_cut_again_for_the_file_that_still_has_it() {
+    let home = Home::new();
+    home.drop_plain("a.obj", 2);
+    assert_eq!(home.once(""), summary(1, 0));
+    home.drop_plain("copy.obj", 2);
+    assert_eq!(home.once("").same, 1);
+    home.drop_plain("a.obj", 7);
+    let running = home.start();
+    wait_until(|| home.has_result("copy.obj"));
+    assert_eq!(running.stop(), summary(2, 0));
+}
+
+#[test]
+fn a_file_that_was_put_back_to_an_earlier_content_is_cut_again() {
+    let home = Home::new();
+    for faces in [2, 7, 2] {
+        home.drop("part.obj", faces);
+        assert_eq!(home.once(""), summary(1, 0));
+        let labels = fs::read_to_string(home.at("out/part.obj.seamline/labels.seg")).unwrap();
+        assert_eq!(labels.lines().count(), faces);
+    }
+}
+
+#[test]
+fn other_settings_are_other_work() {
+    let home = Home::new();
+    home.drop("part.obj", 2);
+    assert_eq!(home.once(""), summary(1, 0));
+    assert_eq!(home.once("[output]\nwrite = ['labels']\n"), summary(1, 0));
+    assert_eq!(home.once("[output]\nwrite = ['labels']\n"), summary(0, 0));
+}
+
+#[test]
+fn bad_content_is_put_aside_each_time_it_comes_and_read_no_further() {
+    let home = Home::new();
+    for _ in 0..2 {
+        home.drop_text("bad.obj", "v 0 0 0\nf 1 2 3\n");
+        assert_eq!(home.once(""), summary(0, 1));
+    }
+    let rows = home.rows();
+    assert_eq!(home.states(), [JobState::Quarantined; 2]);
+    assert_eq!(rows[0].message, rows[1].message);
+    assert_eq!(
+        rows[1].source,
+        Some(home.at("quarantine/bad-1.obj").canonicalize().unwrap())
+    );
+}
+
+#[test]
+fn a_job_put_back_is_done_again() {
+    let home = Home::new();
+    home.drop("refused.obj", REFUSED);
+    home.drop("part.obj", 1);
+    assert_eq!(home.once("after = 'move'"), summary(1, 1));
+    let running = home.start();
+    thread::sleep(Duration::from_millis(300));
+    let all: Vec<_> = home.rows().iter().map(|row| row.id).collect();
+    for (_, back) in requeue(&home.at("state"), Some(&all)).unwrap() {
+        back.unwrap();
+    }
+    wait_until(|| home.states() == [JobState::Done, JobState::Quarantined]);
+    assert!(home.in_quarantine("refused.obj").is_some());
+    assert_eq!(running.stop(), summary(1, 1));
+    assert_eq!(home.rows().len(), 2);
+}
+
+#[test]
+fn a_mesh_that_hangs_costs_its_own_job_and_no_other() {
+    let home = Home::new();
+    for number in 0..3 {
+        home.drop(&format!("hangs{number}.obj"), HANGS);
+        home.drop(&format!("part{number}.obj"), 1 + 5 * number);
+    }
+    let summary = home.once("[limits]\njob_timeout_s = 1\n");
+    assert_eq!((summary.done + summary.same, summary.failed), (3, 3));
+    let reason = home.in_quarantine("hangs0.obj").unwrap();
+    assert_eq!(reason["message"], "was not cut within 1 s");
+}
+
+#[test]
+fn two_daemons_do_not_share_a_state_folder() {
+    let home = Home::new();
+    let running = home.start();
+    wait_until(|| home.at("state/lock").exists());
+    thread::sleep(Duration::from_millis(200));
+    let options = RunOptions {
+        once: true,
+        dry_run: false,
+    };
+    let refused = run(setup(home.config("")), None, options, never()).unwrap_err();
+    assert!(matches!(refused, WatchError::Locked(_)), "{refused}");
+    running.stop();
 }

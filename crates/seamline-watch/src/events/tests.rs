@@ -7,7 +7,7 @@ use std::time::{Duration, Instant};
 use super::*;
 use crate::config::After;
 use crate::include::Patterns;
-use crate::scan::scan;
+use crate::scan::{Listing, Search};
 use crate::test_support::in_own_namespace;
 
 const LONG: Duration = Duration::from_secs(20);
@@ -80,13 +80,24 @@ fn files_found(events: &mut Events, wanted: usize) -> (HashSet<PathBuf>, usize) 
             for place in places {
                 if place.is_file() {
                     found.insert(place);
-                } else if let Ok(listing) = scan(&place, true, &Patterns::new(&["*"]).unwrap()) {
+                } else if let Ok(listing) = everything(&place) {
                     found.extend(listing.files.into_iter().map(|file| file.path));
                 }
             }
         }
     }
     (found, wakes)
+}
+
+fn everything(root: &Path) -> std::io::Result<Listing> {
+    let [include, exclude] = [&["*"][..], &[]].map(|of| Patterns::new(of).unwrap());
+    let search = Search {
+        root,
+        recursive: true,
+        include: &include,
+        exclude: &exclude,
+    };
+    search.all()
 }
 
 #[test]

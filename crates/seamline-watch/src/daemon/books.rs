@@ -1,0 +1,457 @@
+//! The thread that keeps the books: what is ready, what waits, what runs, and what came of it.
+
+mod enter;
+mod tell;
+
+use std::path::Path;
+use std::sync::Arc;
+use std::thread::sleep;
+use std::time::{Duration, Instant};
+
+use crossbeam_channel::{Receiver, RecvError, TryRecvError, never, select};
+use tracing::{Span, error, error_span, info, warn};
+
+use super::backlog::Backlog;
+use super::crew::Crew;
+use super::job::{Failure, Job, Remedy, Waiting};
+use super::lookout::{Lookout, Ready};
+use super::{Order, Reload, RunOptions, Summary, WatchError, make_folders};
+use crate::config::{After, Config};
+use crate::events::Events;
+use crate::health::{Health, Trouble};
+use crate::ledger::{Arrival, Fault, Ledger, LedgerError, Row, TakenIn};
+use crate::metrics::Metrics;
+use crate::setup::Setup;
+use crate::{service, shown};
+
+/// Everything is looked after at least this often.
+const BEAT_EVERY: Duration = Duration::from_secs(1);
+/// Room among the jobs comes without a message; it is looked for this often while jobs wait.
+const ROOM_EVERY: Duration = Duration::from_millis(20);
+/// What waits in the ledger is compared with what is there this often.
+const RECONCILE_EVERY: Duration = Duration::from_secs(60);
+/// A ledger that cannot be written is tried again this often.
+const LEDGER_EVERY: Duration = Duration::from_millis(200);
+/// With so many meshes hanging the daemon ends, so that whoever looks after it can start it afresh.
+const MOST_HANGING: usize = 8;
+
+/// What the books are kept with.
+pub(super) struct Books {
+    pub setup: Arc<Setup>,
+    pub reload: Option<Reload>,
+    pub ledger: Ledger,
+    pub lookout: Lookout,
+    pub events: Events,
+    pub crew: Crew,
+    pub health: Arc<Health>,
+    pub metrics: Arc<Metrics>,
+    pub options: RunOptions,
+    pub orders: Receiver<Order>,
+}
+
+/// The books while they are kept.
+struct Open {
+    with: Books,
+    backlog: Backlog,
+    summary: Summary,
+    /// Told to stop: what runs has until then.
+    stop_by: Option<Instant>,
+    beaten_at: Option<Instant>,
+    reconciled_at: Option<Instant>,
+    first_look_done: bool,
+}
+
+impl Books {
+    /// Keeps the books until the daemon is to end, and then until the last running job has ended.
+    pub(super) fn keep(self) -> Result<Summary, WatchError> {
+        let mut open = Open {
+            with: self,
+            backlog: Backlog::default(),
+            summary: Summary::default(),
+            stop_by: None,
+            beaten_at: None,
+            reconciled_at: None,
+            first_look_done: false,
+        };
+        let kept = open.keep();
+        // On an error too: nothing new is begun, and threads that still live are let go.
+        open.with.crew.begin_nothing_new();
+        kept?;
+        open.summary.empty = open.with.lookout.empty();
+        open.summary.dropped += open.backlog.waiting();
+        if open.summary.unfinished == 0 {
+            open.with.crew.join();
+        }
+        Ok(open.summary)
+    }
+}
+
+impl Open {
+    fn keep(&mut self) -> Result<(), WatchError> {
+        let mut hints = self.with.events.hints().clone();
+        loop {
+            self.beat()?;
+            if self.stop_by.is_none() {
+                if self.with.lookout.wait(Instant::now()).is_zero() {
+                    self.look()?;
+                }
+                self.hand_over()?;
+            }
+            if self.is_at_end()? {
+                return Ok(());
+            }
+            select! {
+                recv(self.with.crew.outcomes()) -> outcome => {
+                    self.enter(outcome.map_err(|_| WatchError::CrewLost)?)?;
+                }
+                recv(hints) -> hint => match hint {
+                    Ok(()) => self.with.lookout.hint(),
+                    // Nothing more will be heard; the periodic listing goes on.
+                    Err(RecvError) => hints = never(),
+                },
+                recv(self.with.orders) -> order => self.obey(order.ok()),
+                default(self.wait()) => {}
+            }
+        }
+    }
+
+    /// How long nothing is to be done, unless somebody has something to say.
+    fn wait(&self) -> Duration {
+        let now = Instant::now();
+        let mut wait = BEAT_EVERY;
+        if self.stop_by.is_none() {
+            wait = wait.min(self.with.lookout.wait(now));
+            if self.backlog.waiting() > 0 && self.with.crew.has_room() {
+                let due = self.backlog.next_due();
+                wait = due.map_or(wait, |due| wait.min(due.saturating_duration_since(now)));
+            } else if self.backlog.waiting() > 0 {
+                wait = wait.min(ROOM_EVERY);
+            }
+        }
+        wait
+    }
+
+    fn is_at_end(&mut self) -> Result<bool, WatchError> {
+        let running = self.backlog.running().len();
+        if let Some(stop_by) = self.stop_by {
+            if running > 0 && Instant::now() >= stop_by {
+                self.leave_unfinished()?;
+                return Ok(true);
+            }
+            return Ok(running == 0);
+        }
+        let idle = running == 0 && self.backlog.waiting() == 0;
+        Ok(self.with.options.once && idle && self.with.lookout.is_settled())
+    }
+
+    /// What has to be looked after once in a while.
+    fn beat(&mut self) -> Result<(), WatchError> {
+        self.with.health.beat();
+        let now = Instant::now();
+        if self.beaten_at.is_some_and(|last| now < last + BEAT_EVERY) {
+            return Ok(());
+        }
+        self.beaten_at = Some(now);
+        service::alive();
+        for (job, failure) in self
+            .with
+            .crew
+            .give_up_overdue(now)
+            .map_err(WatchError::Threads)?
+        {
+            self.timed_out(job, failure)?;
+        }
+        let hanging = self.with.crew.abandoned();
+        if hanging >= MOST_HANGING {
+            return Err(WatchError::Hanging(hanging));
+        }
+        if self.with.reload.as_mut().is_some_and(Reload::is_due) {
+            self.reload();
+        }
+        if self.record(|ledger| ledger.changed_elsewhere())? {
+            for (_, path) in self.record(|ledger| ledger.pending())? {
+                if !self.backlog.has(&path) {
+                    self.with.lookout.look_again(&path);
+                }
+            }
+        }
+        self.tell()
+    }
+
+    fn look(&mut self) -> Result<(), WatchError> {
+        let look = self.with.lookout.look(&mut self.with.events);
+        for _ in 0..look.overflows {
+            warn!("changes came faster than they could be heard; every folder is listed");
+            self.with.metrics.overflowed();
+        }
+        for _ in 0..look.scans {
+            self.with.metrics.scanned();
+        }
+        self.take_in(look.ready)?;
+        let due = |last: Instant| last.elapsed() >= RECONCILE_EVERY;
+        if look.scans > 0 && self.reconciled_at.is_none_or(due) {
+            self.reconcile()?;
+        }
+        if !self.first_look_done {
+            self.first_look_done = true;
+            self.with.health.clear(&Trouble::Starting);
+            service::ready();
+        }
+        Ok(())
+    }
+
+    fn take_in(&mut self, ready: Vec<Ready>) -> Result<(), WatchError> {
+        if ready.is_empty() {
+            return Ok(());
+        }
+        let stamps: Vec<_> = ready.iter().map(|ready| ready.file.stamp.word()).collect();
+        let arrivals: Vec<_> = ready
+            .iter()
+            .zip(&stamps)
+            .map(|(ready, stamp)| Arrival {
+                path: &ready.file.path,
+                relative: &ready.relative,
+                stamp,
+            })
+            .collect();
+        let settings = self.with.setup.settings_hash.clone();
+        let taken = self.record(|ledger| ledger.take_in(&arrivals, &settings))?;
+        for (ready, taken) in ready.into_iter().zip(taken) {
+            let waiting = |id| Waiting {
+                id,
+                path: ready.file.path,
+                relative: ready.relative,
+                stamp: ready.file.stamp,
+                overdue: ready.file.overdue,
+                since: Instant::now(),
+                not_before: None,
+                failures: 0,
+            };
+            match taken {
+                TakenIn::Queue(id) => self.backlog.add(waiting(id)),
+                TakenIn::Running => {}
+                TakenIn::Done(id) => self.settle_again(waiting(id), None)?,
+                TakenIn::Quarantined(row) => {
+                    self.summary.failed += 1;
+                    self.settle_again(waiting(row.id), Some(failure_of(*row)))?;
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// A crash may have come between what the ledger says of a job and what was to become of its file.
+    fn settle_again(&mut self, file: Waiting, failure: Option<Failure>) -> Result<(), WatchError> {
+        let Some(job) = self.job(file, 1) else {
+            return Ok(());
+        };
+        if (failure.is_none() && job.after == After::Keep) || !self.backlog.start(&job.file) {
+            return Ok(());
+        }
+        self.settle(job, failure)
+    }
+
+    fn settle(&self, job: Job, failure: Option<Failure>) -> Result<(), WatchError> {
+        if self.with.crew.settle(job, failure) {
+            Ok(())
+        } else {
+            Err(WatchError::CrewLost)
+        }
+    }
+
+    /// Files that went away while they waited for more of themselves, or while nobody watched.
+    fn reconcile(&mut self) -> Result<(), WatchError> {
+        self.reconciled_at = Some(Instant::now());
+        for (id, path) in self.record(|ledger| ledger.pending())? {
+            if !self.backlog.has(&path) && self.with.lookout.is_missing(&path) {
+                info!("{}: gone before it was read", shown(&path));
+                self.record(|ledger| ledger.gone(id))?;
+            }
+        }
+        Ok(())
+    }
+
+    fn hand_over(&mut self) -> Result<(), WatchError> {
+        while self.with.crew.has_room() {
+            let Some(file) = self.backlog.next(Instant::now()) else {
+                return Ok(());
+            };
+            let id = file.id;
+            let settings = self.with.setup.settings_hash.clone();
+            let attempts = self.record(|ledger| ledger.begin(id, &settings))?;
+            let path = file.path.clone();
+            if let Some(job) = self.job(file, attempts) {
+                if !self.with.crew.hand_over(job) {
+                    return Err(WatchError::CrewLost);
+                }
+            } else {
+                self.record(|ledger| ledger.put_back(id))?;
+                self.backlog.ended(&path);
+            }
+        }
+        Ok(())
+    }
+
+    /// The job on a file; nothing if its folder is watched no longer.
+    fn job(&self, file: Waiting, attempts: u32) -> Option<Job> {
+        let setup = self.with.setup.clone();
+        let watched = watched_with(&setup.config, &file.path)?;
+        Some(Job {
+            after: watched.after,
+            span: span_of(&file),
+            attempts,
+            setup,
+            file,
+        })
+    }
+
+    fn obey(&mut self, order: Option<Order>) {
+        match order {
+            Some(Order::Stop) => self.stop(),
+            Some(Order::Reload) => self.reload(),
+            // Nobody is left who could stop the daemon, which is no reason to stop.
+            None => self.with.orders = never(),
+        }
+    }
+
+    fn stop(&mut self) {
+        if self.stop_by.is_some() {
+            self.stop_by = Some(Instant::now());
+            return;
+        }
+        info!(
+            "stopping: {} running, {} waiting",
+            self.backlog.running().len(),
+            self.backlog.waiting()
+        );
+        service::stopping();
+        self.with.health.raise(Trouble::Stopping, "told to stop");
+        self.stop_by = Some(Instant::now() + self.with.setup.config.drain_for);
+        self.with.crew.begin_nothing_new();
+    }
+
+    fn leave_unfinished(&mut self) -> Result<(), WatchError> {
+        let running: Vec<_> = self.backlog.running().collect();
+        self.summary.unfinished = running.len();
+        warn!(
+            "{} did not end in time and will be done again",
+            running.len()
+        );
+        for id in running {
+            self.with.ledger.put_back_unless_ended(id)?;
+        }
+        Ok(())
+    }
+
+    fn reload(&mut self) {
+        let Some(reload) = &mut self.with.reload else {
+            return;
+        };
+        service::reloading();
+        let read = reload.read().and_then(|setup| {
+            make_folders(&setup.config).map_err(|error| format!("{error}; {}", error.hint()))?;
+            Ok(setup)
+        });
+        self.with.metrics.reloaded(read.is_ok());
+        match read {
+            Ok(setup) => self.change_to(setup),
+            Err(why) => error!("the configuration is refused, the old one stays in force: {why}"),
+        }
+        service::ready();
+    }
+
+    fn change_to(&mut self, mut setup: Setup) {
+        for key in needs_restart(&self.with.setup.config, &setup.config) {
+            warn!("`{key}` has changed: that holds from the next start on");
+        }
+        setup.config.state.clone_from(&self.with.setup.config.state);
+        let config = &setup.config;
+        for (root, _) in self.with.lookout.presence() {
+            self.with
+                .health
+                .clear(&Trouble::FolderAway(root.to_owned()));
+        }
+        self.with.lookout.retarget(config);
+        self.with.events.retarget(&config.watch);
+        let limit = crate::memory::limit(config.limits.memory_limit_bytes);
+        self.with.crew.gate().set_limit(limit);
+        self.backlog
+            .retain(|job| watched_with(config, &job.path).is_some());
+        info!("the configuration was read anew and holds from the next job on");
+        self.with.setup = Arc::new(setup);
+    }
+
+    /// Reads or writes the ledger. While that is not possible, because its disk is full or somebody else has
+    /// it, everything waits.
+    fn record<T>(
+        &mut self,
+        mut work: impl FnMut(&mut Ledger) -> Result<T, LedgerError>,
+    ) -> Result<T, WatchError> {
+        let trouble = || Trouble::Ledger(self.with.setup.config.state.clone());
+        let mut waits = false;
+        loop {
+            match work(&mut self.with.ledger) {
+                Ok(done) => {
+                    if waits {
+                        info!("the ledger can be written again");
+                        self.with.health.clear(&trouble());
+                    }
+                    return Ok(done);
+                }
+                Err(error) if error.may_pass() => {
+                    if !waits {
+                        waits = true;
+                        warn!("{error}; {}; waiting until that is so", error.hint());
+                        self.with.health.raise(trouble(), &error.to_string());
+                    }
+                    self.with.health.beat();
+                    if let Ok(Order::Stop) | Err(TryRecvError::Disconnected) =
+                        self.with.orders.try_recv()
+                    {
+                        return Err(error.into());
+                    }
+                    sleep(LEDGER_EVERY);
+                }
+                Err(error) => return Err(error.into()),
+            }
+        }
+    }
+}
+
+fn watched_with<'a>(config: &'a Config, path: &Path) -> Option<&'a crate::config::Watched> {
+    config
+        .watch
+        .iter()
+        .find(|watched| path.starts_with(&watched.root))
+}
+
+/// Of the highest level, so that it is told along with whatever is said.
+fn span_of(file: &Waiting) -> Span {
+    error_span!("job", id = file.id.0, path = %shown(&file.path))
+}
+
+fn failure_of(row: Row) -> Failure {
+    Failure {
+        fault: Fault {
+            stage: row.stage.unwrap_or_default(),
+            message: row.message.unwrap_or_default(),
+            hint: row.hint.unwrap_or_default(),
+            of_content: false,
+        },
+        content: row.content,
+        remedy: Remedy::None,
+    }
+}
+
+/// The keys that cannot change while the daemon runs, and have.
+fn needs_restart<'a>(old: &Config, new: &Config) -> impl Iterator<Item = &'a str> {
+    [
+        ("state.dir", old.state != new.state),
+        ("daemon.workers", old.workers != new.workers),
+        ("daemon.queue", old.queue != new.queue),
+        ("http.listen", old.http != new.http),
+        ("log", old.log != new.log),
+    ]
+    .into_iter()
+    .filter_map(|(key, changed)| changed.then_some(key))
+}

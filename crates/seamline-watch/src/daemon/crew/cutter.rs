@@ -1,0 +1,156 @@
+//! The threads that cut: each has a worker of its own, and threads of its own for that worker.
+
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::atomic::Ordering;
+use std::sync::{Arc, PoisonError};
+use std::time::Instant;
+
+use crossbeam_channel::{Receiver, Sender};
+use rayon::{ThreadPool, ThreadPoolBuilder};
+use seamline_ecs::{Pipeline, Segmentation, Worker};
+
+use super::Shared;
+use super::guard::guarded;
+use crate::daemon::job::{Cut, Failure, Job, Loaded, Outcome, Remedy};
+use crate::ledger::Fault;
+use crate::load::LoadedMesh;
+
+/// Between meshes a worker keeps its rows, unless they take more than this share of the memory limit, the
+/// share of each worker: the limit is for meshes in work.
+const KEPT_SHARE: u64 = 8;
+
+/// What a cutter keeps from mesh to mesh.
+struct Kept {
+    worker: Worker,
+    pipeline: Arc<Pipeline>,
+    /// Of its own, and not shared among the cutters: a mesh that hangs in one of the threads hangs nobody else.
+    pool: Option<ThreadPool>,
+}
+
+impl Kept {
+    fn new(pipeline: &Arc<Pipeline>) -> Self {
+        // Without a pool the worker has the threads of the whole program: results are the same.
+        let pool = ThreadPoolBuilder::new()
+            .num_threads(pipeline.threads())
+            .build()
+            .ok();
+        let new = || Worker::new(pipeline.clone());
+        Self {
+            worker: pool.as_ref().map_or_else(new, |pool| pool.install(new)),
+            pipeline: pipeline.clone(),
+            pool,
+        }
+    }
+
+    fn cut(&mut self, mesh: &LoadedMesh) -> Result<Segmentation, seamline_ecs::StageError> {
+        let Self { worker, pool, .. } = self;
+        let mesh = mesh.mesh.clone();
+        match pool {
+            Some(pool) => pool.install(|| worker.segment(mesh)),
+            None => worker.segment(mesh),
+        }
+    }
+}
+
+pub(super) fn cut_all(
+    shared: &Shared,
+    to_cut: &Receiver<Loaded>,
+    cut: &Sender<Cut>,
+    outcome: &Sender<Outcome>,
+) {
+    let mut kept: Option<Kept> = None;
+    for Loaded { job, mesh, pass } in to_cut {
+        if shared.is_stopping() {
+            drop((mesh, pass));
+            if outcome.send(Outcome::Dropped { job }).is_err() {
+                return;
+            }
+            continue;
+        }
+        let said = job.span.clone();
+        let _said = said.enter();
+        begin(shared, &job);
+        let result = cut_one(&mut kept, &job, &mesh);
+        if !end(shared, &job) {
+            // This job was given up, and another cutter has this one's place.
+            shared.abandoned.fetch_sub(1, Ordering::Relaxed);
+            return;
+        }
+        if pass.bytes() * KEPT_SHARE > shared.gate.limit() {
+            kept = None;
+        }
+        let handed_on = match result {
+            Ok(segmentation) => {
+                for record in &segmentation.stages {
+                    let took = std::time::Duration::from_secs_f64(record.seconds);
+                    shared.metrics.stage_took(record.stage.name(), took);
+                }
+                let segmentation = Box::new(segmentation);
+                let done = Cut {
+                    job,
+                    mesh,
+                    segmentation,
+                    pass,
+                };
+                cut.send(done).is_ok()
+            }
+            Err(failure) => {
+                let failure = Failure {
+                    content: Some(mesh.hash),
+                    ..failure
+                };
+                outcome.send(Outcome::Failed { job, failure }).is_ok()
+            }
+        };
+        if !handed_on {
+            return;
+        }
+    }
+}
+
+fn cut_one(kept: &mut Option<Kept>, job: &Job, mesh: &LoadedMesh) -> Result<Segmentation, Failure> {
+    let pipeline = &job.setup.pipeline;
+    let mut at_work = kept
+        .take()
+        .filter(|kept| Arc::ptr_eq(&kept.pipeline, pipeline));
+    let result = guarded("pipeline", || {
+        at_work.get_or_insert_with(|| Kept::new(pipeline)).cut(mesh)
+    });
+    match result {
+        Ok(cut) => {
+            *kept = at_work;
+            cut.map_err(|error| Failure {
+                fault: Fault {
+                    stage: error.stage.name().to_owned(),
+                    message: error.message,
+                    hint: error.hint,
+                    of_content: true,
+                },
+                content: None,
+                remedy: Remedy::None,
+            })
+        }
+        Err(panicked) => {
+            // Its world may be half changed: the next mesh gets a new one.
+            let _ = catch_unwind(AssertUnwindSafe(|| drop(at_work)));
+            Err(panicked)
+        }
+    }
+}
+
+fn begin(shared: &Shared, job: &Job) {
+    let mut cutting = shared
+        .cutting
+        .lock()
+        .unwrap_or_else(PoisonError::into_inner);
+    cutting.insert(job.file.id, (job.clone(), Instant::now()));
+}
+
+/// False if the job was given up meanwhile.
+fn end(shared: &Shared, job: &Job) -> bool {
+    let mut cutting = shared
+        .cutting
+        .lock()
+        .unwrap_or_else(PoisonError::into_inner);
+    cutting.remove(&job.file.id).is_some()
+}

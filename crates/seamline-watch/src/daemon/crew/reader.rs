@@ -1,0 +1,242 @@
+//! The thread that reads: bytes, their hash, whether they are known, then the mesh.
+
+use std::io;
+use std::sync::PoisonError;
+use std::time::Instant;
+
+use crossbeam_channel::{Receiver, Sender};
+use tracing::warn;
+
+use super::Shared;
+use super::guard::guarded;
+use crate::daemon::job::{Failure, Job, Loaded, Outcome, Remedy};
+use crate::ledger::{Fault, JobId, Known, Reader};
+use crate::load::{FileBytes, LoadError, LoadedMesh, mesh_of, read_file, read_head, weld_share};
+use crate::memory::{Pass, TooLarge, bytes_for_triangles, estimate_bytes};
+use crate::retry::may_pass;
+
+pub(super) fn read_all(
+    shared: &Shared,
+    ledger: &Reader,
+    jobs: &Receiver<Job>,
+    loaded: &Sender<Loaded>,
+    outcome: &Sender<Outcome>,
+) {
+    for job in jobs {
+        let said = job.span.clone();
+        let _said = said.enter();
+        let handed_on = match read(shared, ledger, job) {
+            Ok(mesh) => loaded.send(*mesh).is_ok(),
+            Err(other) => outcome.send(*other).is_ok(),
+        };
+        if !handed_on {
+            return;
+        }
+    }
+}
+
+/// The mesh of a job, or what became of it instead.
+fn read(shared: &Shared, ledger: &Reader, job: Job) -> Result<Box<Loaded>, Box<Outcome>> {
+    if shared.is_stopping() {
+        return Err(Box::new(Outcome::Dropped { job }));
+    }
+    let instead = |outcome| Err(Box::new(outcome));
+    if let Some(failure) = taken_by_another_root(&job).or_else(|| too_long(&job)) {
+        return instead(Outcome::Failed { job, failure });
+    }
+    let pass = match admit(shared, &job) {
+        Ok(pass) => pass,
+        Err(outcome) => return instead(outcome(job)),
+    };
+    let started = Instant::now();
+    let bytes = match read_file(&job.file.path) {
+        Ok(bytes) if bytes.stamp == job.file.stamp => bytes,
+        Ok(_) => return instead(Outcome::Changed { job }),
+        Err(error) => return instead(refused(job, error)),
+    };
+    shared.metrics.read_bytes(bytes.bytes.len() as u64);
+    if let Some(other) = claim(shared, &job, &bytes.hash) {
+        return instead(Outcome::Behind { job, other });
+    }
+    match ledger.known(&bytes.hash, &job.setup.settings_hash) {
+        Ok(Some(Known::Done { holder, path })) if holder != job.file.id => {
+            let content = bytes.hash;
+            return instead(Outcome::Same {
+                job,
+                content,
+                holder,
+                path,
+            });
+        }
+        Ok(Some(Known::Bad(fault))) => {
+            let failure = Failure {
+                fault,
+                content: Some(bytes.hash),
+                remedy: Remedy::None,
+            };
+            return instead(Outcome::Failed { job, failure });
+        }
+        Ok(_) => {}
+        // To cut the same bytes twice costs time and nothing else.
+        Err(error) => warn!("{error}; {}", error.hint()),
+    }
+    let parsed = parse(&job, bytes, pass);
+    shared.metrics.stage_took("read", started.elapsed());
+    match parsed {
+        Ok((mesh, pass)) => Ok(Box::new(Loaded { job, mesh, pass })),
+        Err(failure) if failure.remedy == Remedy::Again => {
+            Err(Box::new(Outcome::EndsEarly { job, failure }))
+        }
+        Err(failure) => Err(Box::new(Outcome::Failed { job, failure })),
+    }
+}
+
+/// Waits for memory, before anything of the file is in it.
+fn admit(shared: &Shared, job: &Job) -> Result<Pass, Box<dyn FnOnce(Job) -> Outcome>> {
+    let head = match read_head(&job.file.path) {
+        Ok(head) => head,
+        Err(error) => return Err(Box::new(|job| refused(job, error))),
+    };
+    let needs = estimate_bytes(job.file.stamp.size, &head);
+    match shared.gate.enter(needs, &|| shared.is_stopping()) {
+        Ok(Some(pass)) => Ok(pass),
+        Ok(None) => Err(Box::new(|job| Outcome::Dropped { job })),
+        Err(error) => Err(Box::new(move |job| Outcome::Failed {
+            job,
+            failure: too_large(&error, None),
+        })),
+    }
+}
+
+fn parse(job: &Job, bytes: FileBytes, pass: Pass) -> Result<(LoadedMesh, Pass), Failure> {
+    let content = bytes.hash.clone();
+    let share = weld_share(job.setup.pipeline.settings_in_force());
+    let mesh =
+        guarded("read", || mesh_of(bytes, &job.file.path, share)).map_err(|failure| Failure {
+            content: Some(content.clone()),
+            ..failure
+        })?;
+    let mesh = mesh.map_err(|error| {
+        let waits = error.is_truncated() && !job.file.overdue;
+        Failure {
+            fault: fault_of(&error),
+            content: Some(content.clone()),
+            remedy: if waits { Remedy::Again } else { Remedy::None },
+        }
+    })?;
+    let triangles = mesh.mesh.triangles.len() as u64;
+    let most = job.setup.config.limits.max_triangles;
+    if triangles > most {
+        return Err(of_limit(
+            format!("has {triangles} triangles, more than the {most} that are allowed"),
+            "raise `limits.max_triangles`, or export a coarser mesh",
+            Some(content),
+        ));
+    }
+    let vertices = mesh.mesh.positions().len() as u64;
+    match pass.resize(bytes_for_triangles(triangles, vertices)) {
+        Ok(pass) => Ok((mesh, pass)),
+        Err(error) => Err(too_large(&error, Some(content))),
+    }
+}
+
+/// Takes the right to work on these bytes, or tells who has it.
+fn claim(shared: &Shared, job: &Job, content: &str) -> Option<JobId> {
+    let mut claims = shared.claims.lock().unwrap_or_else(PoisonError::into_inner);
+    let work = (content.to_owned(), job.setup.settings_hash.clone());
+    let holder = *claims.entry(work).or_insert(job.file.id);
+    (holder != job.file.id).then_some(holder)
+}
+
+fn refused(job: Job, error: LoadError) -> Outcome {
+    match &error {
+        LoadError::Changed => Outcome::Changed { job },
+        LoadError::Io(cause) if cause.kind() == io::ErrorKind::NotFound => Outcome::Gone { job },
+        LoadError::Io(cause) => {
+            let remedy = if may_pass(cause) {
+                Remedy::Again
+            } else {
+                Remedy::None
+            };
+            let failure = Failure {
+                fault: fault_of(&error),
+                content: None,
+                remedy,
+            };
+            Outcome::Failed { job, failure }
+        }
+        LoadError::NotAFile | LoadError::Mesh { .. } => {
+            let failure = Failure {
+                fault: fault_of(&error),
+                content: error.hash().map(str::to_owned),
+                remedy: Remedy::None,
+            };
+            Outcome::Failed { job, failure }
+        }
+    }
+}
+
+fn fault_of(error: &LoadError) -> Fault {
+    Fault {
+        stage: "read".to_owned(),
+        message: error.to_string(),
+        hint: error.hint().to_owned(),
+        of_content: error.is_of_content() && !error.is_truncated(),
+    }
+}
+
+fn too_long(job: &Job) -> Option<Failure> {
+    let (size, most) = (job.file.stamp.size, job.setup.config.limits.max_file_bytes);
+    (size > most).then(|| {
+        of_limit(
+            format!("has {size} bytes, more than the {most} that are allowed"),
+            "raise `limits.max_file_bytes`, or export a coarser mesh",
+            None,
+        )
+    })
+}
+
+fn too_large(error: &TooLarge, content: Option<String>) -> Failure {
+    of_limit(
+        error.to_string(),
+        "raise `limits.memory_limit_bytes`, or export a coarser mesh",
+        content,
+    )
+}
+
+fn of_limit(message: String, hint: &str, content: Option<String>) -> Failure {
+    Failure {
+        fault: Fault {
+            stage: "read".to_owned(),
+            message,
+            hint: hint.to_owned(),
+            of_content: false,
+        },
+        content,
+        remedy: Remedy::None,
+    }
+}
+
+/// Two watched folders may hold files of the same relative path, whose results would have the same place:
+/// the folder named first in the configuration has it.
+fn taken_by_another_root(job: &Job) -> Option<Failure> {
+    let relative = &job.file.relative;
+    let below = relative.components().count() > 1;
+    let roots = job.setup.config.watch.iter();
+    let other = roots
+        .take_while(|other| !job.file.path.starts_with(&other.root))
+        .find(|other| {
+            (other.recursive || !below)
+                && other.include.take(relative)
+                && !other.exclude.take(relative)
+                && other.root.join(relative).is_file()
+        })?;
+    Some(of_limit(
+        format!(
+            "its results would replace those of {}",
+            other.root.join(relative).display()
+        ),
+        "give one of the two files another name",
+        None,
+    ))
+}

@@ -1,0 +1,126 @@
+//! The thread that writes results. While the disk is full it waits, and with it all who come before.
+
+use std::path::Path;
+use std::thread::sleep;
+use std::time::Duration;
+
+use crossbeam_channel::{Receiver, Sender};
+use tracing::{info, warn};
+
+use super::Shared;
+use super::guard::guarded;
+use crate::VERSION;
+use crate::daemon::job::{Cut, Failure, Outcome, Remedy};
+use crate::health::Trouble;
+use crate::ledger::Fault;
+use crate::outputs::{JobFacts, OutputError, result_folder, write_results};
+
+/// How often a full disk is tried again.
+const FULL_DISK_EVERY: Duration = Duration::from_secs(1);
+
+pub(super) fn write_all(shared: &Shared, to_write: &Receiver<Cut>, outcome: &Sender<Outcome>) {
+    for cut in to_write {
+        let said = cut.job.span.clone();
+        let _said = said.enter();
+        if outcome.send(write(shared, cut)).is_err() {
+            return;
+        }
+    }
+}
+
+fn write(shared: &Shared, cut: Cut) -> Outcome {
+    let (parent, name) = place(&cut);
+    let written = guarded("write", || {
+        shared.timed("write", || write_when_there_is_room(shared, &cut, &parent))
+    });
+    let Cut {
+        job,
+        mesh,
+        segmentation,
+        pass: _pass,
+    } = cut;
+    let failed = |failure: Failure| Failure {
+        content: Some(mesh.hash.clone()),
+        ..failure
+    };
+    match written {
+        Ok(Ok(())) => Outcome::Written {
+            result: result_folder(&parent, &name),
+            patches: segmentation.patches.len(),
+            content: mesh.hash,
+            job,
+        },
+        Ok(Err(error)) => {
+            let failure = failed(Failure {
+                fault: Fault {
+                    stage: "write".to_owned(),
+                    message: error.to_string(),
+                    hint: error.hint().to_owned(),
+                    of_content: false,
+                },
+                content: None,
+                remedy: Remedy::AgainForEver,
+            });
+            Outcome::Failed { job, failure }
+        }
+        Err(panicked) => {
+            let failure = failed(panicked);
+            Outcome::Failed { job, failure }
+        }
+    }
+}
+
+fn place(cut: &Cut) -> (std::path::PathBuf, std::ffi::OsString) {
+    let relative = &cut.job.file.relative;
+    let output = &cut.job.setup.config.output;
+    let parent = output.join(relative.parent().unwrap_or(Path::new("")));
+    (parent, relative.file_name().unwrap_or_default().to_owned())
+}
+
+fn write_when_there_is_room(shared: &Shared, cut: &Cut, parent: &Path) -> Result<(), OutputError> {
+    let output = &cut.job.setup.config.output;
+    let trouble = || Trouble::DiskFull(output.clone());
+    let mut paused = false;
+    loop {
+        match write_once(cut, parent) {
+            Err(error) if error.is_full_disk() => {
+                if !paused {
+                    paused = true;
+                    warn!("{error}; paused until there is room");
+                    shared.health.raise(trouble(), &error.to_string());
+                    shared.metrics.set_paused(true);
+                }
+                sleep(FULL_DISK_EVERY);
+            }
+            other => {
+                if paused {
+                    info!("there is room again");
+                    shared.health.clear(&trouble());
+                    shared.metrics.set_paused(false);
+                }
+                return other;
+            }
+        }
+    }
+}
+
+fn write_once(cut: &Cut, parent: &Path) -> Result<(), OutputError> {
+    let Cut {
+        job,
+        mesh,
+        segmentation,
+        ..
+    } = cut;
+    let about = JobFacts {
+        path: &job.file.path,
+        hash: &mesh.hash,
+        format: mesh.format,
+        bytes_len: mesh.bytes_len,
+        settings: job.setup.pipeline.settings_in_force(),
+        program_version: VERSION,
+        read_seconds: mesh.took.as_secs_f64(),
+    };
+    let name = job.file.relative.file_name().unwrap_or_default();
+    let what = job.setup.config.write;
+    write_results(parent, name, &mesh.mesh, segmentation, &about, what).map(|_| ())
+}

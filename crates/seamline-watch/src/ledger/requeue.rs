@@ -1,0 +1,156 @@
+//! A job is to be done again: its file goes back to where it came from.
+
+use std::fs;
+use std::io;
+use std::os::unix::ffi::OsStrExt;
+use std::path::{Path, PathBuf};
+
+use rusqlite::{Connection, OpenFlags, OptionalExtension, params};
+
+use super::row::{self, COLUMNS};
+use super::{JobId, JobState, LedgerError, Row, open_existing};
+use crate::quarantine::reason_beside;
+use crate::relocate::move_aside;
+use crate::tracker::Stamp;
+
+/// Why a job cannot be done again.
+#[derive(Debug, thiserror::Error)]
+pub enum RequeueError {
+    /// The ledger fails.
+    #[error("{0}")]
+    Ledger(#[from] LedgerError),
+    /// There is no such job.
+    #[error("there is no job {0}")]
+    Unknown(i64),
+    /// It waits or is worked on.
+    #[error("job {id} is {state} already")]
+    Under {
+        /// Its number.
+        id: i64,
+        /// `pending` or `running`.
+        state: &'static str,
+    },
+    /// Its file is not where it was put.
+    #[error("the file of job {id} cannot be brought back from {}: {error}", .from.display())]
+    File {
+        /// Its number.
+        id: i64,
+        /// Where it should be.
+        from: PathBuf,
+        /// What the system says.
+        error: io::Error,
+    },
+}
+
+impl RequeueError {
+    /// What to do about it: one sentence.
+    pub fn hint(&self) -> &'static str {
+        match self {
+            Self::Ledger(error) => error.hint(),
+            Self::Unknown(_) => "`seamline status` tells the numbers of all jobs",
+            Self::Under { .. } => "wait for its end",
+            Self::File { .. } => "drop the file into the watched folder again",
+        }
+    }
+}
+
+/// Makes jobs pending again, and brings their files back to where they came from: out of quarantine (the
+/// reason beside it is deleted) or out of the folder of done files. If another file has the name by
+/// now, this one gets a number, as everywhere. Without `jobs`, those in quarantine. A running daemon takes
+/// them up by itself; it may run meanwhile. Gives, for each job, where its file is now, or why not.
+///
+/// # Errors
+///
+/// The ledger cannot be read at all.
+pub fn requeue(
+    state: &Path,
+    jobs: Option<&[JobId]>,
+) -> Result<Vec<(JobId, Result<PathBuf, RequeueError>)>, LedgerError> {
+    let connection = open_existing(state, OpenFlags::SQLITE_OPEN_READ_WRITE)?;
+    let jobs = match jobs {
+        Some(jobs) => jobs.to_vec(),
+        None => quarantined(&connection)?,
+    };
+    Ok(jobs
+        .into_iter()
+        .map(|id| (id, one(&connection, id)))
+        .collect())
+}
+
+/// Of each path the last job, if it is in quarantine and has not been put back since.
+fn quarantined(connection: &Connection) -> Result<Vec<JobId>, LedgerError> {
+    let mut all =
+        connection.prepare("SELECT id FROM jobs WHERE state = 'quarantined' ORDER BY id")?;
+    let ids = all.query_map([], |row| row.get(0).map(JobId))?;
+    Ok(ids.collect::<Result<_, _>>()?)
+}
+
+fn one(connection: &Connection, id: JobId) -> Result<PathBuf, RequeueError> {
+    let row = format!("SELECT {COLUMNS} FROM jobs WHERE id = ?1");
+    let row = connection
+        .query_row(&row, [id.0], row::read)
+        .optional()
+        .map_err(LedgerError::from)?
+        .ok_or(RequeueError::Unknown(id.0))?;
+    if let state @ (JobState::Pending | JobState::Running) = row.state {
+        return Err(RequeueError::Under {
+            id: id.0,
+            state: state.word(),
+        });
+    }
+    let (path, stamp) = bring_back(&row).map_err(|error| RequeueError::File {
+        id: id.0,
+        from: row.source.clone().unwrap_or_else(|| row.path.clone()),
+        error,
+    })?;
+    enter(connection, &row, &path, stamp).map_err(LedgerError::from)?;
+    Ok(path)
+}
+
+fn enter(connection: &Connection, row: &Row, path: &Path, stamp: Stamp) -> rusqlite::Result<()> {
+    let transaction = connection.unchecked_transaction()?;
+    // Whoever asks for another try does not want to hear what is known already.
+    transaction.execute(
+        "UPDATE jobs SET of_content = 0 WHERE content = ?1",
+        [&row.content],
+    )?;
+    transaction.execute(
+        "UPDATE jobs SET state = 'pending', path = ?2, relative = ?3, stamp = ?4, attempts = 0, \
+         source = NULL, result = NULL, same_as = NULL, stage = NULL, message = NULL, hint = NULL, \
+         of_content = 0, content = NULL, ended_at = NULL WHERE id = ?1",
+        params![
+            row.id.0,
+            path.as_os_str().as_bytes(),
+            relative(row, path).as_os_str().as_bytes(),
+            stamp.word()
+        ],
+    )?;
+    transaction.commit()
+}
+
+fn bring_back(row: &Row) -> io::Result<(PathBuf, Stamp)> {
+    let path = match &row.source {
+        None => row.path.clone(),
+        Some(source) if source.as_os_str().is_empty() => {
+            return Err(io::Error::new(
+                io::ErrorKind::NotFound,
+                "it was deleted when it was done",
+            ));
+        }
+        Some(source) => {
+            let path = move_aside(source, &row.path)?;
+            if row.state == JobState::Quarantined {
+                let _ = fs::remove_file(reason_beside(source));
+            }
+            path
+        }
+    };
+    let stamp = Stamp::of(&fs::metadata(&path)?);
+    Ok((path, stamp))
+}
+
+/// The path below the watched folder, whose last part may have got a number.
+fn relative(row: &Row, path: &Path) -> PathBuf {
+    row.relative
+        .with_file_name(path.file_name().unwrap_or_default())
+}

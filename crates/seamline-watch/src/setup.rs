@@ -1,0 +1,57 @@
+//! What a job is done with: a configuration and the pipeline it asks for, never changed, only replaced.
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use seamline_ecs::Pipeline;
+use toml::Value;
+
+use crate::config::Config;
+use crate::outputs::OutputFile;
+
+/// A configuration, its pipeline, and the hash of all that results depend on.
+pub struct Setup {
+    /// Folders, limits, what is written.
+    pub config: Config,
+    /// What is done to a mesh.
+    pub pipeline: Arc<Pipeline>,
+    /// BLAKE3, in hexadecimal, of the settings in force and the files to be written. The order of keys and
+    /// the number of threads have no part in it.
+    pub settings_hash: String,
+}
+
+impl Setup {
+    /// Puts the two together.
+    pub fn new(config: Config, pipeline: Arc<Pipeline>) -> Self {
+        let mut said = String::new();
+        for (name, table) in sorted(pipeline.settings_in_force()) {
+            say(name, table, &mut said);
+        }
+        for file in OutputFile::ALL
+            .into_iter()
+            .filter(|&file| config.write.has(file))
+        {
+            said += file.word();
+        }
+        Self {
+            config,
+            pipeline,
+            settings_hash: blake3::hash(said.as_bytes()).to_hex().to_string(),
+        }
+    }
+}
+
+fn sorted(table: &toml::Table) -> BTreeMap<&String, &Value> {
+    table.iter().collect()
+}
+
+fn say(key: &str, value: &Value, said: &mut String) {
+    match value {
+        Value::Table(table) => {
+            for (inner, value) in sorted(table) {
+                say(&format!("{key}.{inner}"), value, said);
+            }
+        }
+        plain => *said += &format!("{key} = {plain}\n"),
+    }
+}

@@ -106,7 +106,6 @@ impl Config {
     pub fn from_file(file: &ConfigFile) -> Result<Self, ConfigError> {
         let tables = file.tables();
         let output: OutputTable = file.table(tables.get("output"), "output")?;
-        let state: StateTable = file.table(tables.get("state"), "state")?;
         let quarantine: QuarantineTable = file.table(tables.get("quarantine"), "quarantine")?;
         let done: DoneTable = file.table(tables.get("done"), "done")?;
         let daemon: DaemonTable = file.table(tables.get("daemon"), "daemon")?;
@@ -115,22 +114,12 @@ impl Config {
         let http: HttpTable = file.table(tables.get("http"), "http")?;
         let log: LogTable = file.table(tables.get("log"), "log")?;
 
-        let place = |key: &str, dir: &Path| {
-            let base = file.path().parent().unwrap_or(Path::new(""));
-            folders::resolve(&base.join(dir)).map_err(|error| {
-                let reason = format!("{} cannot be looked at: {error}", base.join(dir).display());
-                file.locate(SettingsError::new(
-                    key,
-                    reason,
-                    "name a folder that may be read",
-                ))
-            })
-        };
+        let place = |key: &str, dir: &Path| place(file, key, dir);
         let config = Self {
             watch: watched(file, &place)?,
             output: place("output.dir", &output.dir)?,
             write: WriteSet::from(&output.write[..]),
-            state: place("state.dir", &state.dir)?,
+            state: Self::state_folder(file)?,
             quarantine: place("quarantine.dir", &quarantine.dir)?,
             done: place("done.dir", &done.dir)?,
             workers: match daemon.workers {
@@ -150,10 +139,34 @@ impl Config {
         Ok(config)
     }
 
+    /// Where the daemon of a configuration keeps what it must remember, absolute. Nothing else of the file
+    /// is looked at.
+    ///
+    /// # Errors
+    ///
+    /// A wrong `[state]`.
+    pub fn state_folder(file: &ConfigFile) -> Result<PathBuf, ConfigError> {
+        let state: StateTable = file.table(file.tables().get("state"), "state")?;
+        place(file, "state.dir", &state.dir)
+    }
+
     /// The tables that belong to the pipeline, untouched.
     pub fn pipeline_settings(&self) -> &Table {
         &self.pipeline
     }
+}
+
+/// The folder that a configuration names, which is relative to the file.
+fn place(file: &ConfigFile, key: &str, dir: &Path) -> Result<PathBuf, ConfigError> {
+    let base = file.path().parent().unwrap_or(Path::new(""));
+    folders::resolve(&base.join(dir)).map_err(|error| {
+        let reason = format!("{} cannot be looked at: {error}", base.join(dir).display());
+        file.locate(SettingsError::new(
+            key,
+            reason,
+            "name a folder that may be read",
+        ))
+    })
 }
 
 fn watched(

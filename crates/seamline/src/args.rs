@@ -21,6 +21,10 @@ pub enum Command {
     Segment(SegmentArgs),
     /// Watch folders and cut every mesh that is dropped there
     Watch(WatchArgs),
+    /// Say what became of every file: pending, running, done, quarantined
+    Status(StatusArgs),
+    /// Have jobs done again, and bring back the files of those in quarantine
+    Requeue(RequeueArgs),
     /// Say what a mesh is, and what is wrong with it
     Inspect(InspectArgs),
     /// List each swappable stage, what can fill it, and its settings
@@ -99,6 +103,29 @@ pub struct WatchArgs {
     pub dry_run: bool,
     #[command(flatten)]
     pub said: SaidArgs,
+}
+
+#[derive(clap::Args, Debug)]
+pub struct StatusArgs {
+    /// The configuration of the daemon, which may run meanwhile
+    #[arg(value_name = "CONFIG.toml")]
+    pub config: PathBuf,
+    /// Every job, as JSON
+    #[arg(long)]
+    pub json: bool,
+}
+
+#[derive(clap::Args, Debug)]
+pub struct RequeueArgs {
+    /// The configuration of the daemon, which may run meanwhile
+    #[arg(value_name = "CONFIG.toml")]
+    pub config: PathBuf,
+    /// Numbers of jobs, as `seamline status` tells them
+    #[arg(value_name = "JOB", required_unless_present = "all_quarantined")]
+    pub jobs: Vec<i64>,
+    /// All jobs in quarantine
+    #[arg(long, conflicts_with = "jobs")]
+    pub all_quarantined: bool,
 }
 
 #[derive(clap::Args, Debug)]

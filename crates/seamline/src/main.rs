@@ -5,9 +5,11 @@ mod check_config;
 mod inspect;
 mod list_plugins;
 mod outcome;
+mod requeue;
 mod say;
 mod segment;
 mod settings;
+mod status;
 mod watch;
 
 use clap::Parser;
@@ -21,6 +23,8 @@ fn main() -> std::process::ExitCode {
         Command::Segment(segment) => segment::run(segment),
         Command::Inspect(inspect) => inspect::run(inspect),
         Command::Watch(watch) => watch::run(watch),
+        Command::Status(status) => status::run(status),
+        Command::Requeue(requeue) => requeue::run(requeue),
         Command::Plugins(plugins) => list_plugins::run(plugins),
         Command::Config { command } => check_config::run(command),
     };

@@ -3,8 +3,8 @@
 use std::fs;
 use std::path::Path;
 
-use seamline_tests::samples::samples;
 use seamline_tests::same_partition;
+use seamline_tests::samples::samples;
 
 use crate::home::Home;
 

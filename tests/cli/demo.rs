@@ -3,8 +3,8 @@
 use std::fs;
 use std::path::Path;
 
+use seamline_tests::same_partition;
 use seamline_tests::samples::samples;
-use seamline_tests::{run, same_partition, seamline};
 
 use crate::home::Home;
 
@@ -19,20 +19,6 @@ fn checkout() -> Home {
         home.put(&format!("tests/data/{}", sample.path), sample.bytes);
     }
     home
-}
-
-#[test]
-fn every_configuration_that_comes_with_the_program_is_right_as_it_comes() {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../watch-config");
-    let entries = fs::read_dir(folder).expect("it comes with the program");
-    let paths = entries.map(|entry| entry.expect("an entry").path());
-    let configs: Vec<_> = paths
-        .filter(|path| path.extension() == Some("toml".as_ref()))
-        .collect();
-    assert!(configs.iter().any(|path| path.ends_with("demo.toml")));
-    for config in configs {
-        run(seamline().args(["config", "check"]).arg(config)).ended(0);
-    }
 }
 
 #[test]

@@ -5,6 +5,7 @@
 
 mod check;
 mod error;
+mod foreign;
 mod obj;
 mod obj_lines;
 mod ply;

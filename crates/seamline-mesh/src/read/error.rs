@@ -21,6 +21,14 @@ pub enum ReadError {
         /// What was found instead.
         reason: String,
     },
+    /// Something else that is known: an archive, a CAD model, a picture, a web page.
+    #[error("is {what}, not a mesh")]
+    NotAMesh {
+        /// What it is, with its article.
+        what: &'static str,
+        /// What would be right.
+        hint: &'static str,
+    },
     /// Shorter than its own header or grammar promises.
     #[error("{what}: the copy is incomplete")]
     Truncated {
@@ -95,7 +103,7 @@ impl ReadError {
                 "STL, OBJ and PLY can be read; export the mesh as one of them"
             }
             Self::Truncated { .. } => "wait until the copy is complete, or copy the file again",
-            Self::Syntax { hint, .. } => hint,
+            Self::Syntax { hint, .. } | Self::NotAMesh { hint, .. } => hint,
             Self::NotFinite { .. } => "repair the vertex in the program that wrote the file",
             Self::OutOfRange { .. } => {
                 "vertices may be missing, or the indices count from a different start; export it again"

@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use super::error::{ReadError, quote};
+use super::foreign::refuse_foreign;
 use super::stl;
 
 /// What kind of reader a file needs.
@@ -25,6 +26,7 @@ pub(super) fn sniff(bytes: &[u8], name: &Path) -> Result<Kind, ReadError> {
     if stl::binary_length_fits(bytes) {
         return Ok(Kind::StlBinary);
     }
+    refuse_foreign(bytes)?;
     if bytes.starts_with(b"ply\n") || bytes.starts_with(b"ply\r") {
         return Ok(Kind::Ply);
     }

@@ -427,7 +427,8 @@ fn disk_full() {
     daemon.wait_for("/ready to go red", || daemon.get("/ready").0 == 503);
     let (_, why) = daemon.get("/ready");
     assert!(why.contains("out") && why.contains("full"), "{why}");
-    assert_eq!(daemon.metrics().value("seamline_paused", &[]), 1.0);
+    let paused = || daemon.metrics().value("seamline_paused", &[]);
+    daemon.wait_for("the pause to be told", || paused() == 1.0);
     assert_eq!(daemon.get("/health").0, 200);
     sleep(Duration::from_millis(1500));
     let status = home.status();
@@ -442,7 +443,7 @@ fn disk_full() {
     });
     daemon.wait_for("/ready to go green", || daemon.get("/ready").0 == 200);
     daemon.wait_for("the rows", || home.status().count("done") == 13);
-    assert_eq!(daemon.metrics().value("seamline_paused", &[]), 0.0);
+    daemon.wait_for("its end to be told", || paused() == 0.0);
     assert_eq!(seamline_tests::daemon::leftovers(&disk), [""; 0]);
     assert_eq!(daemon.terminate(), Some(0));
 }

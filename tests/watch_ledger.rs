@@ -3,15 +3,24 @@
 use std::collections::BTreeMap;
 use std::fs::{self, File};
 use std::os::unix::fs::MetadataExt;
+use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread::{self, sleep};
 use std::time::{Duration, Instant};
 
 use rusqlite::Connection;
-use seamline_tests::daemon::{Home, cuboid, cuboids, leftovers, torus};
+use seamline_tests::daemon::{Home, Job, Status, cuboid, cuboids, leftovers, torus};
 use seamline_tests::{run, seamline};
 
 const METRICS: &str = "[http]\nlisten = \"127.0.0.1:0\"\n";
+
+/// Where the results of a job are: its own, or those of the job of the same content.
+fn result_of<'s>(status: &'s Status, job: &'s Job) -> Option<&'s Path> {
+    let holder = job.same_as.map_or(job.id, |id| id);
+    let holder = status.jobs.iter().find(|job| job.id == holder)?;
+    assert_eq!(holder.content, job.content, "{status:#?}");
+    holder.result.as_deref()
+}
 
 #[test]
 fn same_content_twice_one_job() {
@@ -31,13 +40,17 @@ fn same_content_twice_one_job() {
     });
 
     let status = home.status();
-    let [first, again] = status.jobs_of("first.obj")[..] else {
-        panic!("{status:#?}");
-    };
+    let first = status.jobs_of("first.obj")[0];
     let second = status.only("deep/second.obj");
     assert_eq!(first.same_as, None);
-    assert_eq!(second.same_as, Some(first.id), "{status:#?}");
-    assert_eq!(again.same_as, Some(first.id), "{status:#?}");
+    assert_eq!(
+        result_of(&status, second),
+        Some(&*home.path().join("out/first.obj.seamline"))
+    );
+    assert_eq!(
+        result_of(&status, status.latest("first.obj").unwrap()),
+        result_of(&status, second)
+    );
     assert_eq!(second.content, first.content);
     assert_eq!(home.results().names(), ["first.obj"]);
     assert_eq!(made(), first_made);
@@ -51,7 +64,11 @@ fn same_content_twice_one_job() {
     let daemon = home.start();
     home.drop("third.obj", cuboid(1.0));
     daemon.wait_for("the third", || home.status().is("third.obj", "done"));
-    assert_eq!(home.status().only("third.obj").same_as, Some(first.id));
+    let status = home.status();
+    assert_eq!(
+        result_of(&status, status.only("third.obj")),
+        Some(&*home.path().join("out/first.obj.seamline"))
+    );
     assert_eq!(made(), first_made);
     assert_eq!(daemon.terminate(), Some(0));
 }
@@ -119,17 +136,27 @@ fn same_name_new_content_new_job() {
     let rows = status.jobs_of("part.obj");
     assert_eq!(rows[3].content, rows[1].content);
     assert_ne!(rows[1].content, rows[0].content);
-    // Whichever way the last is told, its results must be there, and be its own.
-    let result = rows[3].result.clone().expect("results");
-    let report: serde_json::Value =
-        serde_json::from_slice(&fs::read(result.join("report.json")).unwrap()).unwrap();
-    assert_eq!(
-        report["input"]["blake3"].as_str(),
-        rows[3].content.as_deref()
-    );
-    if result == home.path().join("out/part.obj.seamline") {
-        assert!(home.results().bytes("part.obj") == bytes);
-    }
+    assert!(home.results().bytes("part.obj") == bytes);
+    assert_eq!(daemon.terminate(), Some(0));
+}
+
+/// A copy whose results lay under another name has results of its own once those are replaced.
+#[test]
+fn results_that_others_share_are_not_lost_with_their_file() {
+    let home = Home::with("stable_for_ms = 100\n");
+    let daemon = home.start();
+    home.drop("first.obj", cuboid(1.0));
+    daemon.wait_for("the first", || home.status().is("first.obj", "done"));
+    let bytes = home.results().bytes("first.obj");
+    home.drop("copy.obj", cuboid(1.0));
+    daemon.wait_for("the copy", || home.status().is("copy.obj", "done"));
+    assert!(!home.result("copy.obj").exists());
+
+    home.drop("first.obj", torus(200));
+    daemon.wait_for("other results", || home.labels("first.obj") > 6);
+    daemon.wait_for("results of the copy", || home.labels("copy.obj") == 6);
+    assert!(home.results().bytes("copy.obj") == bytes);
+    daemon.wait_for("its row", || home.status().is("copy.obj", "done"));
     assert_eq!(daemon.terminate(), Some(0));
 }
 

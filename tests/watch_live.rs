@@ -45,10 +45,13 @@ fn backpressure() {
         "{}",
         daemon.memory("VmHWM")
     );
-    let metrics = daemon.metrics();
-    assert_eq!(metrics.value("seamline_queue_jobs", &[]), 0.0);
-    assert_eq!(metrics.value("seamline_memory_reserved_bytes", &[]), 0.0);
-    assert_eq!(metrics.value("seamline_oldest_pending_seconds", &[]), 0.0);
+    for name in [
+        "seamline_queue_jobs",
+        "seamline_memory_reserved_bytes",
+        "seamline_oldest_pending_seconds",
+    ] {
+        daemon.wait_for(name, || daemon.metrics().value(name, &[]) == 0.0);
+    }
     assert_eq!(daemon.terminate(), Some(0));
 }
 
@@ -262,6 +265,9 @@ fn metrics_exist_and_move() {
     assert_eq!(daemon.get("/ready").1, "ready");
     assert_eq!(daemon.get("/no-such-page").0, 404);
 
+    daemon.wait_for("the first look", || {
+        daemon.metrics().value("seamline_scans_total", &[]) >= 1.0
+    });
     let before = daemon.metrics();
     assert!(before.text.ends_with("# EOF\n"));
     let states = ["pending", "running", "done", "quarantined", "gone"];
@@ -280,7 +286,6 @@ fn metrics_exist_and_move() {
         assert_eq!(before.value(name, &[]), 0.0, "{name}");
     }
     assert!(before.value("seamline_memory_limit_bytes", &[]) > 0.0);
-    assert!(before.value("seamline_scans_total", &[]) >= 1.0);
     assert_eq!(
         before.value("seamline_watch_folders", &[("state", "present")]),
         1.0

@@ -16,7 +16,7 @@ const METRICS: &str = "[http]\nlisten = \"127.0.0.1:0\"\n";
 
 /// Where the results of a job are: its own, or those of the job of the same content.
 fn result_of<'s>(status: &'s Status, job: &'s Job) -> Option<&'s Path> {
-    let holder = job.same_as.map_or(job.id, |id| id);
+    let holder = job.same_as.unwrap_or(job.id);
     let holder = status.jobs.iter().find(|job| job.id == holder)?;
     assert_eq!(holder.content, job.content, "{status:#?}");
     holder.result.as_deref()

@@ -1,6 +1,7 @@
 //! What the end-to-end tests have in common: the built binary, the library's pipeline, and the bench of CAD
 //! meshes where it is present.
 
+pub mod daemon;
 pub mod samples;
 pub mod score;
 

@@ -12,6 +12,7 @@ pub mod events;
 pub mod include;
 pub mod load;
 pub mod lock;
+pub mod memory;
 pub mod mounts;
 pub mod outputs;
 pub mod quarantine;

@@ -110,10 +110,9 @@ mod tests {
 
     fn heard(kind: EventKind, path: &str) -> Heard {
         let mut heard = Heard::default();
+        let matters = heard.note(Path::new("/in"), event(kind, path));
+        assert_eq!(matters, !heard.paths.is_empty());
         heard
-            .note(Path::new("/in"), event(kind, path))
-            .then_some(heard)
-            .unwrap_or_default()
     }
 
     const WRITTEN: EventKind = EventKind::Modify(ModifyKind::Data(DataChange::Any));

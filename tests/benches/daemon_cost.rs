@@ -15,9 +15,15 @@ use seamline_mesh::shapes::{self, Diagonals, Shape};
 use seamline_mesh::{weld, write::write_stl_binary};
 use seamline_tests::seamline;
 
-const ROUNDS: usize = 3;
+const ROUNDS: usize = 4;
 const CONFIG: &str = "[[watch]]\nroot = \"inbox\"\nstable_for_ms = 1\n\n[daemon]\nworkers = 1\n\n\
                       [pipeline]\nthreads = 1\n";
+
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Who {
+    Segment,
+    Watch,
+}
 
 /// The part of this number: of four kinds, and of about 1,000 to 10,000 triangles. No two are alike.
 fn part(number: usize, of: usize) -> Shape {
@@ -71,39 +77,33 @@ fn measured(command: &mut Command) -> [f64; 2] {
     [children_seconds() - before, started.elapsed().as_secs_f64()]
 }
 
-fn segment(home: &Path, count: usize) -> [f64; 2] {
+/// Runs one of the two, and gives the times and the labels of every part. What it wrote is deleted at once, so
+/// that each run comes after the same work of the disk.
+fn run_and_clear(home: &Path, count: usize, who: Who) -> ([f64; 2], Vec<Vec<u8>>) {
     let mut command = seamline();
     command.current_dir(home.join("inbox"));
-    command.args(["segment", "--threads", "1", "-o", "../segmented"]);
-    measured(command.args((0..count).map(name)))
-}
-
-fn watch(home: &Path) -> [f64; 2] {
-    measured(
-        seamline()
-            .arg("watch")
-            .arg(home.join("watch.toml"))
-            .arg("--once"),
-    )
-}
-
-/// Both wrote the same labels for every part; deletes what they wrote.
-fn compare_and_clear(home: &Path, count: usize) {
-    for number in 0..count {
-        let labels = ["segmented", "out"].map(|folder| {
-            let result = format!("{}.seamline/labels.seg", name(number));
-            fs::read(home.join(folder).join(result)).expect("labels")
-        });
-        assert!(labels[0] == labels[1], "{} is cut alike", name(number));
+    match who {
+        Who::Segment => command
+            .args(["segment", "--threads", "1", "-o", "../out"])
+            .args((0..count).map(name)),
+        Who::Watch => command.args(["watch", "../watch.toml", "--once"]),
+    };
+    let seconds = measured(&mut command);
+    let out = home.join("out");
+    let labels = |number| fs::read(out.join(format!("{}.seamline/labels.seg", name(number))));
+    let labels = (0..count).map(|number| labels(number).expect("labels"));
+    let labels = labels.collect();
+    fs::remove_dir_all(&out).expect("it is deleted");
+    if who == Who::Watch {
+        fs::remove_dir_all(home.join("state")).expect("it is deleted");
     }
-    for folder in ["segmented", "out", "state"] {
-        fs::remove_dir_all(home.join(folder)).expect("it is deleted");
-    }
+    (seconds, labels)
 }
 
+/// Half of them are below and half above: of an even number the mean of the two in the middle.
 fn median(mut of: Vec<f64>) -> f64 {
     of.sort_by(f64::total_cmp);
-    of[of.len() / 2]
+    (of[(of.len() - 1) / 2] + of[of.len() / 2]) / 2.0
 }
 
 fn main() {
@@ -118,9 +118,18 @@ fn main() {
 
     let (mut segmented, mut watched) = (Vec::new(), Vec::new());
     for round in 1..=ROUNDS {
-        segmented.push(segment(home, count));
-        watched.push(watch(home));
-        compare_and_clear(home, count);
+        // Turn about, should it matter who comes first.
+        let mut order = [Who::Segment, Who::Watch];
+        order.rotate_left(round % 2);
+        let labels = order.map(|who| {
+            let (seconds, labels) = run_and_clear(home, count, who);
+            match who {
+                Who::Segment => segmented.push(seconds),
+                Who::Watch => watched.push(seconds),
+            }
+            labels
+        });
+        assert!(labels[0] == labels[1], "both cut alike");
         let a_part = |seconds: &[[f64; 2]]| seconds[round - 1].map(|s| s * 1e3 / count as f64);
         let ([cut, cut_clock], [kept, kept_clock]) = (a_part(&segmented), a_part(&watched));
         println!(

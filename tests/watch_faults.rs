@@ -95,7 +95,7 @@ fn poison_file_quarantined() {
     };
     disk.fail(1000);
     let mut daemon = home.start_as(disk.under(&mut home.watch(), "inbox/a/sector.obj", EIO));
-    home.drop("a/sector.obj", cuboid(1.0));
+    home.drop("a/sector.obj", cuboid(50.0));
     home.drop("a/bad.stl", "this is no mesh at all\n");
     home.drop("a/bad.obj", "v 0 0 0\nf 1 2 3\n");
     for (name, text) in cuboids(5) {
@@ -427,8 +427,8 @@ fn disk_full() {
     daemon.wait_for("/ready to go red", || daemon.get("/ready").0 == 503);
     let (_, why) = daemon.get("/ready");
     assert!(why.contains("out") && why.contains("full"), "{why}");
-    let paused = || daemon.metrics().value("seamline_paused", &[]);
-    daemon.wait_for("the pause to be told", || paused() == 1.0);
+    let paused = |daemon: &Daemon| daemon.metrics().value("seamline_paused", &[]);
+    daemon.wait_for("the pause to be told", || paused(&daemon) == 1.0);
     assert_eq!(daemon.get("/health").0, 200);
     sleep(Duration::from_millis(1500));
     let status = home.status();
@@ -443,7 +443,7 @@ fn disk_full() {
     });
     daemon.wait_for("/ready to go green", || daemon.get("/ready").0 == 200);
     daemon.wait_for("the rows", || home.status().count("done") == 13);
-    daemon.wait_for("its end to be told", || paused() == 0.0);
+    daemon.wait_for("its end to be told", || paused(&daemon) == 0.0);
     assert_eq!(seamline_tests::daemon::leftovers(&disk), [""; 0]);
     assert_eq!(daemon.terminate(), Some(0));
 }

@@ -55,16 +55,22 @@ fn backpressure() {
     assert_eq!(daemon.terminate(), Some(0));
 }
 
-fn running(home: &Home, daemon: &Daemon, name: &str) {
-    daemon.wait_for("the job to run", || home.status().is(name, "running"));
+/// Waits until a mesh, the first there is, has been read and is being cut.
+fn cutting(daemon: &Daemon) {
+    let read = [("stage", "read")];
+    daemon.wait_for("a mesh to be cut", || {
+        daemon.metrics().observed("seamline_stage_seconds", &read) >= 1.0
+    });
 }
 
 #[test]
 fn sigterm_drains() {
-    let home = Home::with("stable_for_ms = 100\n[daemon]\nworkers = 1\nqueue = 1\n");
+    let home = Home::with(&format!(
+        "stable_for_ms = 100\n[daemon]\nworkers = 1\nqueue = 1\n{METRICS}"
+    ));
     let daemon = home.start();
     home.drop("a-large.stl", torus(150_000));
-    running(&home, &daemon, "a-large.stl");
+    cutting(&daemon);
     for (name, text) in cuboids(40) {
         home.drop(name, text);
     }
@@ -91,10 +97,12 @@ fn sigterm_drains() {
 /// The other half of `sigterm_drains`: what does not end in time is given up, and is done the next time.
 #[test]
 fn sigterm_past_the_limit_gives_the_job_back() {
-    let home = Home::with("stable_for_ms = 100\n[daemon]\ndrain_s = 0\n");
+    let home = Home::with(&format!(
+        "stable_for_ms = 100\n[daemon]\ndrain_s = 0\n{METRICS}"
+    ));
     let mut daemon = home.start();
     home.drop("large.stl", torus(300_000));
-    running(&home, &daemon, "large.stl");
+    cutting(&daemon);
     daemon.signal(Signal::Term);
     let code = daemon.wait_exit(Duration::from_secs(20));
     assert_eq!(code, Some(1), "{}", daemon.log());
@@ -260,9 +268,10 @@ fn output_inside_watch_is_refused() {
 fn metrics_exist_and_move() {
     let home = Home::with(&format!("stable_for_ms = 100\n{METRICS}"));
     let daemon = home.start();
-    assert_eq!(daemon.get("/health"), (200, "ok".to_owned()));
+    let (alive, word) = daemon.get("/health");
+    assert_eq!((alive, word.trim()), (200, "ok"));
     daemon.wait_for("readiness", || daemon.get("/ready").0 == 200);
-    assert_eq!(daemon.get("/ready").1, "ready");
+    assert_eq!(daemon.get("/ready").1.trim(), "ready");
     assert_eq!(daemon.get("/no-such-page").0, 404);
 
     daemon.wait_for("the first look", || {

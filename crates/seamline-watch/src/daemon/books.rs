@@ -230,10 +230,10 @@ impl Open {
             match taken {
                 TakenIn::Queue(id) => self.backlog.add(waiting(id)),
                 TakenIn::Running => {}
-                TakenIn::Done(id) => self.settle_again(waiting(id), None)?,
+                TakenIn::Done(id) => self.settle_again(waiting(id), 1, None)?,
                 TakenIn::Quarantined(row) => {
                     self.summary.failed += 1;
-                    self.settle_again(waiting(row.id), Some(failure_of(*row)))?;
+                    self.settle_again(waiting(row.id), row.attempts, Some(failure_of(*row)))?;
                 }
             }
         }
@@ -241,8 +241,13 @@ impl Open {
     }
 
     /// A crash may have come between what the ledger says of a job and what was to become of its file.
-    fn settle_again(&mut self, file: Waiting, failure: Option<Failure>) -> Result<(), WatchError> {
-        let Some(job) = self.job(file, 1) else {
+    fn settle_again(
+        &mut self,
+        file: Waiting,
+        attempts: u32,
+        failure: Option<Failure>,
+    ) -> Result<(), WatchError> {
+        let Some(job) = self.job(file, attempts) else {
             return Ok(());
         };
         if (failure.is_none() && job.after == After::Keep) || !self.backlog.start(&job.file) {

@@ -32,8 +32,8 @@ pub(super) struct Shared {
     pub metrics: Arc<Metrics>,
     /// Who works on which bytes, by their hash and that of the settings.
     pub claims: Mutex<HashMap<(String, String), JobId>>,
-    /// The meshes that are being cut, and since when.
-    cutting: Mutex<HashMap<JobId, (Job, Instant)>>,
+    /// The meshes that are being cut, the hashes of their files, and since when.
+    cutting: Mutex<HashMap<JobId, (Job, String, Instant)>>,
     /// Cutters that were given up and have not come back.
     abandoned: AtomicUsize,
     stopping: AtomicBool,
@@ -191,13 +191,13 @@ impl Crew {
     /// Gives up the cutters that have been at one mesh for longer than its limit, and starts others in
     /// their place. Gives the jobs that have thereby failed.
     pub(super) fn give_up_overdue(&mut self, now: Instant) -> io::Result<Vec<(Job, Failure)>> {
-        let overdue: Vec<Job> = {
+        let overdue: Vec<_> = {
             let mut cutting = self
                 .shared
                 .cutting
                 .lock()
                 .unwrap_or_else(PoisonError::into_inner);
-            let is_overdue = |(job, since): &(Job, Instant)| {
+            let is_overdue = |(job, _, since): &(Job, String, Instant)| {
                 let limit = job.setup.config.limits.job_timeout_s;
                 limit > 0 && now.saturating_duration_since(*since) >= Duration::from_secs(limit)
             };
@@ -206,11 +206,10 @@ impl Crew {
                 .filter(|(_, cut)| is_overdue(cut))
                 .map(|(id, _)| *id)
                 .collect();
-            let taken = ids.iter().filter_map(|id| cutting.remove(id));
-            taken.map(|(job, _)| job).collect()
+            ids.iter().filter_map(|id| cutting.remove(id)).collect()
         };
         let mut failed = Vec::new();
-        for job in overdue {
+        for (job, content, _) in overdue {
             self.shared.abandoned.fetch_add(1, Ordering::Relaxed);
             self.start_cutter()?;
             let limit = job.setup.config.limits.job_timeout_s;
@@ -223,7 +222,7 @@ impl Crew {
             };
             let failure = Failure {
                 fault,
-                content: None,
+                content: Some(content),
                 remedy: Remedy::None,
             };
             failed.push((job, failure));

@@ -107,7 +107,12 @@ impl Open {
     }
 
     fn failed(&mut self, job: Job, failure: Failure) -> Result<(), WatchError> {
-        let enough = job.file.failures + 1 >= job.setup.config.retry.attempts;
+        let most = job.setup.config.retry.attempts;
+        let enough = match failure.remedy {
+            // The ledger does not count these as attempts.
+            Remedy::AgainForEver => job.file.failures + 1 >= most,
+            Remedy::Again | Remedy::None => job.attempts >= most,
+        };
         match failure.remedy {
             Remedy::Again if !enough => self.again(job, &failure),
             // The file is not at fault; but `once` has an end.

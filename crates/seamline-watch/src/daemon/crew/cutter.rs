@@ -69,7 +69,7 @@ pub(super) fn cut_all(
         }
         let said = job.span.clone();
         let _said = said.enter();
-        begin(shared, &job);
+        begin(shared, &job, &mesh.hash);
         let result = cut_one(&mut kept, &job, &mesh);
         if !end(shared, &job) {
             // This job was given up, and another cutter has this one's place.
@@ -138,12 +138,13 @@ fn cut_one(kept: &mut Option<Kept>, job: &Job, mesh: &LoadedMesh) -> Result<Segm
     }
 }
 
-fn begin(shared: &Shared, job: &Job) {
+fn begin(shared: &Shared, job: &Job, content: &str) {
     let mut cutting = shared
         .cutting
         .lock()
         .unwrap_or_else(PoisonError::into_inner);
-    cutting.insert(job.file.id, (job.clone(), Instant::now()));
+    let content = content.to_owned();
+    cutting.insert(job.file.id, (job.clone(), content, Instant::now()));
 }
 
 /// False if the job was given up meanwhile.

@@ -227,7 +227,7 @@ fn open_ledger(config: &Config) -> Result<Ledger, WatchError> {
         );
     }
     let mut ledger = Ledger::open(&config.state)?;
-    let (again, given_up) = ledger.recover(config.retry.attempts)?;
+    let (again, given_up) = ledger.recover()?;
     if again + given_up > 0 {
         info!(
             "the last run ended in the middle of its work: {again} to be done again, {given_up} given up"

@@ -21,7 +21,7 @@ use std::os::unix::ffi::OsStrExt;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, SystemTime, UNIX_EPOCH};
 
-use rusqlite::{Connection, OpenFlags, named_params, params};
+use rusqlite::{Connection, OpenFlags, params};
 
 pub use error::LedgerError;
 pub use lookup::{Known, Reader};
@@ -36,6 +36,9 @@ pub const FILE_NAME: &str = "ledger.sqlite";
 
 const SCHEMA: &str = include_str!("ledger/schema.sql");
 const SCHEMA_VERSION: i64 = 1;
+/// A file on which the program has come to its end this often is not begun again: to be in work when the
+/// power fails is bad luck, thrice it is not.
+pub const MOST_CRASHES: u32 = 3;
 /// How long somebody else's writing is waited for.
 const BUSY_FOR: Duration = Duration::from_secs(5);
 
@@ -87,17 +90,21 @@ impl Ledger {
         Ok(changed)
     }
 
-    /// Sets right what a crash left: what was running is pending again, or, if it has been begun `attempts`
-    /// times, in quarantine, because then it may be what brings the program down. To be called once, by
-    /// whoever has the state folder to itself. Gives how many there were of each.
-    pub fn recover(&mut self, attempts: u32) -> Result<(usize, usize), LedgerError> {
+    /// Sets right what a crash left: what was running is pending again, or, if that has happened
+    /// [`MOST_CRASHES`] times, in quarantine, because then it may be what brings the program down. To be called
+    /// once, by whoever has the state folder to itself. Gives how many there were of each.
+    pub fn recover(&mut self) -> Result<(usize, usize), LedgerError> {
         let transaction = self.connection.transaction()?;
+        transaction.execute(
+            "UPDATE jobs SET crashes = crashes + 1 WHERE state = 'running'",
+            [],
+        )?;
         let given_up = transaction.execute(
-            "UPDATE jobs SET state = 'quarantined', ended_at = :now, stage = 'run', \
-             message = 'was begun ' || attempts || ' times, and the program came to its end before the job did', \
+            "UPDATE jobs SET state = 'quarantined', ended_at = ?1, stage = 'run', \
+             message = 'the program came to its end ' || crashes || ' times while it worked on this file', \
              hint = 'try the file by itself with `seamline segment`; if that ends the same way, please report it' \
-             WHERE state = 'running' AND attempts >= :attempts",
-            named_params! { ":now": now_ms(), ":attempts": attempts },
+             WHERE state = 'running' AND crashes >= ?2",
+            params![now_ms(), MOST_CRASHES],
         )?;
         let again = transaction.execute(
             "UPDATE jobs SET state = 'pending' WHERE state = 'running'",

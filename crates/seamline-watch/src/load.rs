@@ -111,14 +111,14 @@ pub fn load(path: &Path, weld_share: f64) -> Result<LoadedMesh, LoadError> {
     mesh_of(read_file(path)?, path, weld_share)
 }
 
-/// The first bytes of a file, 512 at most.
+/// The first bytes of a file, `most` at most.
 ///
 /// # Errors
 ///
 /// As [`load`] of files that cannot be read.
-pub fn read_head(path: &Path) -> Result<Vec<u8>, LoadError> {
+pub fn read_head(path: &Path, most: usize) -> Result<Vec<u8>, LoadError> {
     let mut head = Vec::new();
-    open(path)?.take(512).read_to_end(&mut head)?;
+    open(path)?.take(most as u64).read_to_end(&mut head)?;
     Ok(head)
 }
 

@@ -18,6 +18,8 @@ pub struct Setup {
     /// BLAKE3, in hexadecimal, of the settings in force and the files to be written. The order of keys and
     /// the number of threads have no part in it.
     pub settings_hash: String,
+    /// Are faces split, so that a mesh takes more memory ([`crate::memory::estimate`])?
+    pub enriched: bool,
 }
 
 impl Setup {
@@ -33,7 +35,11 @@ impl Setup {
         {
             said += file.word();
         }
+        let given = |table: &str, key: &str| pipeline.settings_in_force().get(table)?.get(key);
+        let enriched = given("sharp", "enrich").and_then(Value::as_bool) == Some(true)
+            && given("curvature", "carrier").and_then(Value::as_str) == Some("vertices");
         Self {
+            enriched,
             config,
             pipeline,
             settings_hash: blake3::hash(said.as_bytes()).to_hex().to_string(),

@@ -119,7 +119,8 @@ fn tell(
     about: &JobFacts,
 ) -> io::Result<()> {
     if args.json {
-        print(&report(&loaded.mesh, segmentation, about))?;
+        let report = report(&loaded.mesh, segmentation, about);
+        print(&serde_json::to_string(&report)?)?;
     }
     if args.said.quiet {
         return Ok(());

@@ -1,5 +1,6 @@
 //! The ledger, read beside the one who writes it.
 
+use std::os::unix::ffi::OsStrExt;
 use std::path::{Path, PathBuf};
 
 use rusqlite::{Connection, OpenFlags, OptionalExtension, params};
@@ -59,6 +60,15 @@ impl Reader {
                 }),
             })
         });
+        Ok(found.optional()?)
+    }
+
+    /// The file whose results are in this folder, if any are.
+    pub fn owner_of(&self, result: &Path) -> Result<Option<PathBuf>, LedgerError> {
+        let mut owner = self
+            .connection
+            .prepare_cached("SELECT path FROM jobs WHERE result = ?1")?;
+        let found = owner.query_row([result.as_os_str().as_bytes()], |row| row::path(row, 0));
         Ok(found.optional()?)
     }
 

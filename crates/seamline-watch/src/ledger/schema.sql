@@ -13,6 +13,8 @@ CREATE TABLE jobs (
     state           TEXT NOT NULL CHECK (state IN ('pending', 'running', 'done', 'quarantined', 'gone')),
     -- How often it was begun.
     attempts        INTEGER NOT NULL DEFAULT 0,
+    -- How often the program came to its end while it worked on it.
+    crashes         INTEGER NOT NULL DEFAULT 0,
     -- Times in milliseconds since 1970.
     queued_at       INTEGER NOT NULL,
     started_at      INTEGER,

@@ -69,7 +69,7 @@ fn one(
         JobState::Pending => {
             if !same_file {
                 transaction.execute(
-                    "UPDATE jobs SET stamp = ?2, content = NULL, attempts = 0 WHERE id = ?1",
+                    "UPDATE jobs SET stamp = ?2, content = NULL, attempts = 0, crashes = 0 WHERE id = ?1",
                     params![last.id.0, arrival.stamp],
                 )?;
             }

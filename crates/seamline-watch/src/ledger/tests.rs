@@ -199,7 +199,7 @@ fn what_a_crash_left_running_is_pending_again_until_it_was_begun_too_often() {
         assert_eq!(home.ledger.begin(id, SETTINGS).unwrap(), attempt);
         home = home.reopen();
         let expected = if attempt < 3 { (1, 0) } else { (0, 1) };
-        assert_eq!(home.ledger.recover(3).unwrap(), expected);
+        assert_eq!(home.ledger.recover().unwrap(), expected);
     }
     let row = home.row(id);
     assert_eq!(row.state, JobState::Quarantined);

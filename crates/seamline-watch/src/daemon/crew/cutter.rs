@@ -3,9 +3,9 @@
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::Ordering;
 use std::sync::{Arc, PoisonError};
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
-use crossbeam_channel::{Receiver, Sender};
+use crossbeam_channel::{Receiver, RecvTimeoutError, Sender};
 use rayon::{ThreadPool, ThreadPoolBuilder};
 use seamline_ecs::{Pipeline, Segmentation, Worker};
 
@@ -14,10 +14,10 @@ use super::guard::guarded;
 use crate::daemon::job::{Cut, Failure, Job, Loaded, Outcome, Remedy};
 use crate::ledger::Fault;
 use crate::load::LoadedMesh;
+use crate::memory::{Pass, bytes_kept};
 
-/// Between meshes a worker keeps its rows, unless they take more than this share of the memory limit, the
-/// share of each worker: the limit is for meshes in work.
-const KEPT_SHARE: u64 = 8;
+/// An idle cutter looks this often whether somebody waits for the memory it keeps.
+const GIVE_WAY_EVERY: Duration = Duration::from_millis(100);
 
 /// What a cutter keeps from mesh to mesh.
 struct Kept {
@@ -25,6 +25,8 @@ struct Kept {
     pipeline: Arc<Pipeline>,
     /// Of its own, and not shared among the cutters: a mesh that hangs in one of the threads hangs nobody else.
     pool: Option<ThreadPool>,
+    /// The memory its rows take while it has nothing to do.
+    idle: Option<Pass>,
 }
 
 impl Kept {
@@ -39,6 +41,7 @@ impl Kept {
             worker: pool.as_ref().map_or_else(new, |pool| pool.install(new)),
             pipeline: pipeline.clone(),
             pool,
+            idle: None,
         }
     }
 
@@ -59,7 +62,7 @@ pub(super) fn cut_all(
     outcome: &Sender<Outcome>,
 ) {
     let mut kept: Option<Kept> = None;
-    for Loaded { job, mesh, pass } in to_cut {
+    while let Some(Loaded { job, mesh, pass }) = next(shared, to_cut, &mut kept) {
         if shared.is_stopping() {
             drop((mesh, pass));
             if outcome.send(Outcome::Dropped { job }).is_err() {
@@ -76,13 +79,11 @@ pub(super) fn cut_all(
             shared.abandoned.fetch_sub(1, Ordering::Relaxed);
             return;
         }
-        if pass.bytes() * KEPT_SHARE > shared.gate.limit() {
-            kept = None;
-        }
+        keep_if_there_is_room(shared, &mut kept, &job, &mesh);
         let handed_on = match result {
             Ok(segmentation) => {
                 for record in &segmentation.stages {
-                    let took = std::time::Duration::from_secs_f64(record.seconds);
+                    let took = Duration::from_secs_f64(record.seconds);
                     shared.metrics.stage_took(record.stage.name(), took);
                 }
                 let segmentation = Box::new(segmentation);
@@ -105,6 +106,37 @@ pub(super) fn cut_all(
         if !handed_on {
             return;
         }
+    }
+}
+
+/// The next mesh. Who waits for one gives up the rows of the last as soon as somebody needs the memory.
+fn next(shared: &Shared, to_cut: &Receiver<Loaded>, kept: &mut Option<Kept>) -> Option<Loaded> {
+    loop {
+        match to_cut.recv_timeout(GIVE_WAY_EVERY) {
+            Ok(loaded) => {
+                if let Some(kept) = kept {
+                    // From here on the memory is that of the mesh.
+                    kept.idle = None;
+                }
+                return Some(loaded);
+            }
+            Err(RecvTimeoutError::Timeout) if shared.gate.is_waited_for() => *kept = None,
+            Err(RecvTimeoutError::Timeout) => {}
+            Err(RecvTimeoutError::Disconnected) => return None,
+        }
+    }
+}
+
+/// Rows are kept for the next mesh where there is room for them beside the meshes in work.
+fn keep_if_there_is_room(shared: &Shared, kept: &mut Option<Kept>, job: &Job, mesh: &LoadedMesh) {
+    let (triangles, vertices) = (mesh.mesh.triangles.len(), mesh.mesh.positions().len());
+    let bytes = bytes_kept(triangles as u64, vertices as u64, job.setup.enriched);
+    let Some(at_rest) = kept else {
+        return;
+    };
+    at_rest.idle = shared.gate.try_enter(bytes).ok().flatten();
+    if at_rest.idle.is_none() {
+        *kept = None;
     }
 }
 

@@ -1,6 +1,7 @@
 //! The thread that reads: bytes, their hash, whether they are known, then the mesh.
 
 use std::io;
+use std::path::PathBuf;
 use std::sync::PoisonError;
 use std::time::Instant;
 
@@ -9,11 +10,13 @@ use tracing::warn;
 
 use super::Shared;
 use super::guard::guarded;
+use super::writer::result_of;
 use crate::daemon::job::{Failure, Job, Loaded, Outcome, Remedy};
 use crate::ledger::{Fault, JobId, Known, Reader};
 use crate::load::{FileBytes, LoadError, LoadedMesh, mesh_of, read_file, read_head, weld_share};
-use crate::memory::{Pass, TooLarge, bytes_for_triangles, estimate_bytes};
+use crate::memory::{Pass, START_BYTES, TooLarge, bytes_for_mesh, estimate};
 use crate::retry::may_pass;
+use crate::shown;
 
 pub(super) fn read_all(
     shared: &Shared,
@@ -41,10 +44,10 @@ fn read(shared: &Shared, ledger: &Reader, job: Job) -> Result<Box<Loaded>, Box<O
         return Err(Box::new(Outcome::Dropped { job }));
     }
     let instead = |outcome| Err(Box::new(outcome));
-    if let Some(failure) = taken_by_another_root(&job).or_else(|| too_long(&job)) {
+    if let Some(failure) = taken_by_another_root(ledger, &job).or_else(|| too_long(&job)) {
         return instead(Outcome::Failed { job, failure });
     }
-    let pass = match admit(shared, &job) {
+    let mut pass = match admit(shared, &job) {
         Ok(pass) => pass,
         Err(outcome) => return instead(outcome(job)),
     };
@@ -80,10 +83,10 @@ fn read(shared: &Shared, ledger: &Reader, job: Job) -> Result<Box<Loaded>, Box<O
         // To cut the same bytes twice costs time and nothing else.
         Err(error) => warn!("{error}; {}", error.hint()),
     }
-    let parsed = parse(&job, bytes, pass);
+    let parsed = parse(shared, &job, bytes, &mut pass);
     shared.metrics.stage_took("read", started.elapsed());
     match parsed {
-        Ok((mesh, pass)) => Ok(Box::new(Loaded { job, mesh, pass })),
+        Ok(mesh) => Ok(Box::new(Loaded { job, mesh, pass })),
         Err(failure) if failure.remedy == Remedy::Again => {
             Err(Box::new(Outcome::EndsEarly { job, failure }))
         }
@@ -93,22 +96,34 @@ fn read(shared: &Shared, ledger: &Reader, job: Job) -> Result<Box<Loaded>, Box<O
 
 /// Waits for memory, before anything of the file is in it.
 fn admit(shared: &Shared, job: &Job) -> Result<Pass, Box<dyn FnOnce(Job) -> Outcome>> {
-    let head = match read_head(&job.file.path) {
-        Ok(head) => head,
+    let start = match read_head(&job.file.path, START_BYTES) {
+        Ok(start) => start,
         Err(error) => return Err(Box::new(|job| refused(job, error))),
     };
-    let needs = estimate_bytes(job.file.stamp.size, &head);
-    match shared.gate.enter(needs, &|| shared.is_stopping()) {
+    let needs = estimate(job.file.stamp.size, &start, job.setup.enriched);
+    let gate = &shared.gate;
+    let refused = |error: TooLarge| -> Box<dyn FnOnce(Job) -> Outcome> {
+        let failure = too_large(&error, None);
+        Box::new(|job| Outcome::Failed { job, failure })
+    };
+    let limit = gate.limit();
+    if needs.least_bytes > limit {
+        let needs = needs.least_bytes;
+        return Err(refused(TooLarge { needs, limit }));
+    }
+    match gate.enter(needs.bytes.min(limit), &|| shared.is_stopping()) {
         Ok(Some(pass)) => Ok(pass),
         Ok(None) => Err(Box::new(|job| Outcome::Dropped { job })),
-        Err(error) => Err(Box::new(move |job| Outcome::Failed {
-            job,
-            failure: too_large(&error, None),
-        })),
+        Err(error) => Err(refused(error)),
     }
 }
 
-fn parse(job: &Job, bytes: FileBytes, pass: Pass) -> Result<(LoadedMesh, Pass), Failure> {
+fn parse(
+    shared: &Shared,
+    job: &Job,
+    bytes: FileBytes,
+    pass: &mut Pass,
+) -> Result<LoadedMesh, Failure> {
     let content = bytes.hash.clone();
     let share = weld_share(job.setup.pipeline.settings_in_force());
     let mesh =
@@ -134,8 +149,10 @@ fn parse(job: &Job, bytes: FileBytes, pass: Pass) -> Result<(LoadedMesh, Pass), 
         ));
     }
     let vertices = mesh.mesh.positions().len() as u64;
-    match pass.resize(bytes_for_triangles(triangles, vertices)) {
-        Ok(pass) => Ok((mesh, pass)),
+    let needs = bytes_for_mesh(triangles, vertices, job.setup.enriched);
+    match pass.resize(needs, &|| shared.is_stopping()) {
+        // Stopping: the mesh is dropped before it is begun.
+        Ok(_) => Ok(mesh),
         Err(error) => Err(too_large(&error, Some(content))),
     }
 }
@@ -197,11 +214,7 @@ fn too_long(job: &Job) -> Option<Failure> {
 }
 
 fn too_large(error: &TooLarge, content: Option<String>) -> Failure {
-    of_limit(
-        error.to_string(),
-        "raise `limits.memory_limit_bytes`, or export a coarser mesh",
-        content,
-    )
+    of_limit(error.to_string(), error.hint(), content)
 }
 
 fn of_limit(message: String, hint: &str, content: Option<String>) -> Failure {
@@ -218,8 +231,17 @@ fn of_limit(message: String, hint: &str, content: Option<String>) -> Failure {
 }
 
 /// Two watched folders may hold files of the same relative path, whose results would have the same place:
-/// the folder named first in the configuration has it.
-fn taken_by_another_root(job: &Job) -> Option<Failure> {
+/// the folder named first in the configuration has it, or the one whose results are there already.
+fn taken_by_another_root(ledger: &Reader, job: &Job) -> Option<Failure> {
+    let other = waiting_in_another_root(job).or_else(|| done_in_another_root(ledger, job))?;
+    Some(of_limit(
+        format!("its results would replace those of {}", shown(&other)),
+        "give one of the two files another name",
+        None,
+    ))
+}
+
+fn waiting_in_another_root(job: &Job) -> Option<PathBuf> {
     let relative = &job.file.relative;
     let below = relative.components().count() > 1;
     let roots = job.setup.config.watch.iter();
@@ -231,12 +253,15 @@ fn taken_by_another_root(job: &Job) -> Option<Failure> {
                 && !other.exclude.take(relative)
                 && other.root.join(relative).is_file()
         })?;
-    Some(of_limit(
-        format!(
-            "its results would replace those of {}",
-            other.root.join(relative).display()
-        ),
-        "give one of the two files another name",
-        None,
-    ))
+    Some(other.root.join(relative))
+}
+
+fn done_in_another_root(ledger: &Reader, job: &Job) -> Option<PathBuf> {
+    let roots = &job.setup.config.watch;
+    if roots.len() < 2 {
+        return None;
+    }
+    let owner = ledger.owner_of(&result_of(job)).ok().flatten()?;
+    let is_other = owner != job.file.path && roots.iter().any(|root| owner.starts_with(&root.root));
+    is_other.then_some(owner)
 }

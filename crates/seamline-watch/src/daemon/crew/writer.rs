@@ -1,6 +1,7 @@
 //! The thread that writes results. While the disk is full it waits, and with it all who come before.
 
-use std::path::Path;
+use std::ffi::OsString;
+use std::path::{Path, PathBuf};
 use std::thread::sleep;
 use std::time::Duration;
 
@@ -10,7 +11,7 @@ use tracing::{info, warn};
 use super::Shared;
 use super::guard::guarded;
 use crate::VERSION;
-use crate::daemon::job::{Cut, Failure, Outcome, Remedy};
+use crate::daemon::job::{Cut, Failure, Job, Outcome, Remedy};
 use crate::health::Trouble;
 use crate::ledger::Fault;
 use crate::outputs::{JobFacts, OutputError, result_folder, write_results};
@@ -29,9 +30,8 @@ pub(super) fn write_all(shared: &Shared, to_write: &Receiver<Cut>, outcome: &Sen
 }
 
 fn write(shared: &Shared, cut: Cut) -> Outcome {
-    let (parent, name) = place(&cut);
     let written = guarded("write", || {
-        shared.timed("write", || write_when_there_is_room(shared, &cut, &parent))
+        shared.timed("write", || write_when_there_is_room(shared, &cut))
     });
     let Cut {
         job,
@@ -45,7 +45,7 @@ fn write(shared: &Shared, cut: Cut) -> Outcome {
     };
     match written {
         Ok(Ok(())) => Outcome::Written {
-            result: result_folder(&parent, &name),
+            result: result_of(&job),
             patches: segmentation.patches.len(),
             content: mesh.hash,
             job,
@@ -70,19 +70,25 @@ fn write(shared: &Shared, cut: Cut) -> Outcome {
     }
 }
 
-fn place(cut: &Cut) -> (std::path::PathBuf, std::ffi::OsString) {
-    let relative = &cut.job.file.relative;
-    let output = &cut.job.setup.config.output;
+/// The folder of a job's results.
+pub(super) fn result_of(job: &Job) -> PathBuf {
+    let (parent, name) = place(job);
+    result_folder(&parent, &name)
+}
+
+fn place(job: &Job) -> (PathBuf, OsString) {
+    let relative = &job.file.relative;
+    let output = &job.setup.config.output;
     let parent = output.join(relative.parent().unwrap_or(Path::new("")));
     (parent, relative.file_name().unwrap_or_default().to_owned())
 }
 
-fn write_when_there_is_room(shared: &Shared, cut: &Cut, parent: &Path) -> Result<(), OutputError> {
+fn write_when_there_is_room(shared: &Shared, cut: &Cut) -> Result<(), OutputError> {
     let output = &cut.job.setup.config.output;
     let trouble = || Trouble::DiskFull(output.clone());
     let mut paused = false;
     loop {
-        match write_once(cut, parent) {
+        match write_once(cut) {
             Err(error) if error.is_full_disk() => {
                 if !paused {
                     paused = true;
@@ -104,7 +110,7 @@ fn write_when_there_is_room(shared: &Shared, cut: &Cut, parent: &Path) -> Result
     }
 }
 
-fn write_once(cut: &Cut, parent: &Path) -> Result<(), OutputError> {
+fn write_once(cut: &Cut) -> Result<(), OutputError> {
     let Cut {
         job,
         mesh,
@@ -120,7 +126,7 @@ fn write_once(cut: &Cut, parent: &Path) -> Result<(), OutputError> {
         program_version: VERSION,
         read_seconds: mesh.took.as_secs_f64(),
     };
-    let name = job.file.relative.file_name().unwrap_or_default();
+    let (parent, name) = place(job);
     let what = job.setup.config.write;
-    write_results(parent, name, &mesh.mesh, segmentation, &about, what).map(|_| ())
+    write_results(&parent, &name, &mesh.mesh, segmentation, &about, what).map(|_| ())
 }

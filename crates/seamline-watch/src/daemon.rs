@@ -12,6 +12,7 @@ mod job;
 mod lookout;
 mod reload;
 
+use std::collections::HashMap;
 use std::fs;
 use std::io;
 use std::path::PathBuf;
@@ -24,13 +25,14 @@ use crate::config::{After, Config};
 use crate::events::Events;
 use crate::health::{Health, Trouble};
 use crate::http::{self, ServeError};
-use crate::ledger::{Ledger, LedgerError};
+use crate::ledger::{JobState, Ledger, LedgerError, Reader};
 use crate::lock::{InstanceLock, LockError};
 use crate::metrics::Metrics;
 use crate::mounts::trusts_events;
 use crate::outputs::sweep_leftovers;
 use crate::setup::Setup;
 use crate::shown;
+use crate::tracker::FileFact;
 use crate::{VERSION, service};
 use books::Books;
 use crew::{Crew, StartError};
@@ -70,7 +72,7 @@ pub struct Summary {
     pub unfinished: usize,
     /// Empty files, which wait for content.
     pub empty: usize,
-    /// With `dry_run`: the files that would be taken, by folder and path.
+    /// With `dry_run`: the files that would be taken and are not done yet, by folder and path.
     pub listed: Vec<PathBuf>,
 }
 
@@ -142,7 +144,7 @@ pub fn run(
     let mut lookout = Lookout::new(&setup.config, options.once);
     if options.dry_run {
         return Ok(Summary {
-            listed: lookout.list(),
+            listed: not_done_yet(lookout.list(), &setup),
             ..Summary::default()
         });
     }
@@ -189,6 +191,22 @@ pub fn run(
     let ended = books.keep();
     service::stopping();
     ended
+}
+
+/// The files that are not done in the state they are in, as far as there is a ledger to tell.
+fn not_done_yet(files: Vec<FileFact>, setup: &Setup) -> Vec<PathBuf> {
+    let ledger = Reader::open(&setup.config.state);
+    let rows = ledger.and_then(|ledger| ledger.rows()).unwrap_or_default();
+    let last: HashMap<_, _> = rows.iter().map(|row| (&row.path, row)).collect();
+    let is_done = |file: &FileFact| {
+        last.get(&file.path).is_some_and(|row| {
+            row.state == JobState::Done
+                && row.stamp == file.stamp.word()
+                && row.settings.as_ref() == Some(&setup.settings_hash)
+        })
+    };
+    let open = files.into_iter().filter(|file| !is_done(file));
+    open.map(|file| file.path).collect()
 }
 
 pub(super) fn make_folders(config: &Config) -> Result<(), WatchError> {

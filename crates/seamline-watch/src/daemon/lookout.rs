@@ -7,7 +7,7 @@ use std::time::{Duration, Instant};
 
 use crate::config::Config;
 use crate::events::{Events, Hint};
-use crate::tracker::{ReadyFile, Stamp};
+use crate::tracker::{FileFact, ReadyFile, Stamp};
 use root::Root;
 
 /// How often it is looked whether the folders are there.
@@ -155,8 +155,8 @@ impl Lookout {
     }
 
     /// Every file that would be taken if it held still.
-    pub(super) fn list(&mut self) -> Vec<PathBuf> {
-        self.roots.iter_mut().flat_map(Root::names).collect()
+    pub(super) fn list(&mut self) -> Vec<FileFact> {
+        self.roots.iter_mut().flat_map(Root::files).collect()
     }
 
     /// The file was not ready after all.

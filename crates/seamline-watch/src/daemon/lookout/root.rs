@@ -15,7 +15,7 @@ use crate::events::Events;
 use crate::mounts::is_mount_point;
 use crate::scan::{Listing, Search};
 use crate::shown;
-use crate::tracker::{Facts, ReadyFile, StabilityTracker};
+use crate::tracker::{Facts, FileFact, ReadyFile, StabilityTracker};
 
 pub(super) struct Root {
     watched: Watched,
@@ -181,15 +181,12 @@ impl Root {
         self.ready(ready)
     }
 
-    /// The paths of all files that would be taken if they held still.
-    pub(super) fn names(&mut self) -> Vec<PathBuf> {
-        let listing = self.search().all().unwrap_or_default();
+    /// All files that would be taken if they held still.
+    pub(super) fn files(&mut self) -> Vec<FileFact> {
+        let mut listing = self.search().all().unwrap_or_default();
         self.say(&listing);
-        let files = listing.files.into_iter();
-        files
-            .filter(|file| file.stamp.size > 0)
-            .map(|file| file.path)
-            .collect()
+        listing.files.retain(|file| file.stamp.size > 0);
+        listing.files
     }
 
     fn search(&self) -> Search<'_> {

@@ -45,11 +45,7 @@ fn backpressure() {
         "{}",
         daemon.memory("VmHWM")
     );
-    for name in [
-        "seamline_queue_jobs",
-        "seamline_memory_reserved_bytes",
-        "seamline_oldest_pending_seconds",
-    ] {
+    for name in ["seamline_queue_jobs", "seamline_oldest_pending_seconds"] {
         daemon.wait_for(name, || daemon.metrics().value(name, &[]) == 0.0);
     }
     assert_eq!(daemon.terminate(), Some(0));
@@ -281,7 +277,10 @@ fn metrics_exist_and_move() {
     assert!(before.text.ends_with("# EOF\n"));
     let states = ["pending", "running", "done", "quarantined", "gone"];
     for state in states {
-        assert_eq!(before.value("seamline_jobs", &[("state", state)]), 0.0);
+        assert_eq!(
+            before.value("seamline_ledger_jobs", &[("state", state)]),
+            0.0
+        );
     }
     for name in [
         "seamline_queue_jobs",
@@ -324,8 +323,13 @@ fn metrics_exist_and_move() {
             outcome("quarantined"),
         ] == [Some(1.0); 3]
     });
+    for (state, jobs) in [("done", 2.0), ("quarantined", 1.0), ("pending", 0.0)] {
+        daemon.wait_for(state, || {
+            let now = daemon.metrics();
+            now.value("seamline_ledger_jobs", &[("state", state)]) == jobs
+        });
+    }
     let after = daemon.metrics();
-    assert_eq!(after.value("seamline_jobs", &[("state", "done")]), 2.0);
     assert_eq!(after.value("seamline_read_bytes_total", &[]), bytes as f64);
     assert!(after.value("seamline_scans_total", &[]) > before.value("seamline_scans_total", &[]));
     for stage in [

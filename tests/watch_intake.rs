@@ -300,6 +300,7 @@ fn poll_survives_unmounted_dir(mode: Mode) {
     }
     home.drop("after.obj", cuboid(9.0));
     daemon.wait_for("what comes now", || home.labels("after.obj") == 6);
+    daemon.wait_for("the ledger", || home.status().count("running") == 0);
     let status = home.status();
     assert_eq!(
         status.count("done"),

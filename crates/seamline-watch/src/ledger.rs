@@ -36,8 +36,8 @@ pub const FILE_NAME: &str = "ledger.sqlite";
 
 const SCHEMA: &str = include_str!("ledger/schema.sql");
 const SCHEMA_VERSION: i64 = 1;
-/// A file on which the program has come to its end this often is not begun again: to be in work when the
-/// power fails is bad luck, thrice it is not.
+/// A file on which the program was working, and on nothing else, when it came to its end this often, is not
+/// begun again: once or twice may be bad luck.
 pub const MOST_CRASHES: u32 = 3;
 /// How long somebody else's writing is waited for.
 const BUSY_FOR: Duration = Duration::from_secs(5);
@@ -90,18 +90,21 @@ impl Ledger {
         Ok(changed)
     }
 
-    /// Sets right what a crash left: what was running is pending again, or, if that has happened
-    /// [`MOST_CRASHES`] times, in quarantine, because then it may be what brings the program down. To be called
-    /// once, by whoever has the state folder to itself. Gives how many there were of each.
+    /// Sets right what a crash left: what was running is pending again, and suspected of having brought the
+    /// program down, so that it is begun alone. What was alone [`MOST_CRASHES`] times when the program came to its
+    /// end goes into quarantine. To be called once, by whoever has the state folder to itself. Gives how many
+    /// there were of each.
     pub fn recover(&mut self) -> Result<(usize, usize), LedgerError> {
         let transaction = self.connection.transaction()?;
         transaction.execute(
-            "UPDATE jobs SET crashes = crashes + 1 WHERE state = 'running'",
+            "UPDATE jobs SET suspect = 1, \
+             crashes = crashes + (SELECT count(*) = 1 FROM jobs WHERE state = 'running') \
+             WHERE state = 'running'",
             [],
         )?;
         let given_up = transaction.execute(
             "UPDATE jobs SET state = 'quarantined', ended_at = ?1, stage = 'run', \
-             message = 'the program came to its end ' || crashes || ' times while it worked on this file', \
+             message = 'the program came to its end ' || crashes || ' times while it worked on this file alone', \
              hint = 'try the file by itself with `seamline segment`; if that ends the same way, please report it' \
              WHERE state = 'running' AND crashes >= ?2",
             params![now_ms(), MOST_CRASHES],

@@ -29,7 +29,7 @@ impl FailingDisk {
         let folder = home.at("failing-disk");
         fs::create_dir(&folder).unwrap();
         let library = folder.join("failing_disk.so");
-        let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("data/failing_disk.c");
+        let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("src/daemon/failing_disk.c");
         let built = Command::new("cc")
             .args(["-shared", "-fPIC", "-O1", "-Wall", "-Werror", "-o"])
             .arg(&library)

@@ -17,6 +17,8 @@ pub(super) struct Backlog {
     /// Those that wait for a running job that works on the same bytes.
     behind: HashMap<JobId, Vec<Waiting>>,
     arrivals: u64,
+    /// The one that runs and may have brought the program down before.
+    suspect_runs: Option<JobId>,
 }
 
 impl Backlog {
@@ -41,12 +43,20 @@ impl Backlog {
     }
 
     /// Gives the first job that is due and whose path is not being worked on, and counts it as running. Were
-    /// two runs on one path under way, the results of the older content might be written last.
+    /// two runs on one path under way, the results of the older content might be written last. A suspect waits
+    /// until nothing runs, and everybody else until the suspect has ended.
     pub(super) fn next(&mut self, now: Instant) -> Option<Waiting> {
+        if self.suspect_runs.is_some() {
+            return None;
+        }
         let may_run = |job: &Waiting| {
             job.not_before.is_none_or(|due| due <= now) && !self.running.contains_key(&job.path)
         };
-        let at = *self.waiting.iter().find(|(_, job)| may_run(job))?.0;
+        let (&at, first) = self.waiting.iter().find(|(_, job)| may_run(job))?;
+        if first.suspect && !self.running.is_empty() {
+            return None;
+        }
+        self.suspect_runs = first.suspect.then_some(first.id);
         let job = self.waiting.remove(&at)?;
         self.by_path.remove(&job.path);
         self.running.insert(job.path.clone(), job.id);
@@ -67,6 +77,7 @@ impl Backlog {
         let Some(id) = self.running.remove(path) else {
             return;
         };
+        self.suspect_runs = self.suspect_runs.filter(|suspect| *suspect != id);
         for job in self.behind.remove(&id).unwrap_or_default() {
             self.add(job);
         }
@@ -121,6 +132,7 @@ mod tests {
             overdue: false,
             since: Instant::now(),
             not_before: None,
+            suspect: false,
             failures: 0,
         }
     }
@@ -172,6 +184,23 @@ mod tests {
         assert_eq!([next(&mut backlog), next(&mut backlog)], [Some(2), None]);
         assert_eq!(backlog.next_due(), Some(due));
         assert_eq!(backlog.next(due).map(|job| job.id.0), Some(1));
+    }
+
+    #[test]
+    fn a_suspect_runs_alone() {
+        let mut backlog = Backlog::default();
+        let suspect = |name, id| Waiting {
+            suspect: true,
+            ..job(name, id)
+        };
+        backlog.add(job("a", 1));
+        backlog.add(suspect("b", 2));
+        backlog.add(job("c", 3));
+        assert_eq!([next(&mut backlog), next(&mut backlog)], [Some(1), None]);
+        backlog.ended(Path::new("a"));
+        assert_eq!([next(&mut backlog), next(&mut backlog)], [Some(2), None]);
+        backlog.ended(Path::new("b"));
+        assert_eq!(next(&mut backlog), Some(3));
     }
 
     #[test]

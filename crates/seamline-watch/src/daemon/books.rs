@@ -217,8 +217,10 @@ impl Open {
         let settings = self.with.setup.settings_hash.clone();
         let taken = self.record(|ledger| ledger.take_in(&arrivals, &settings))?;
         for (ready, taken) in ready.into_iter().zip(taken) {
+            let suspect = matches!(taken, TakenIn::Queue { suspect: true, .. });
             let waiting = |id| Waiting {
                 id,
+                suspect,
                 path: ready.file.path,
                 relative: ready.relative,
                 stamp: ready.file.stamp,
@@ -228,7 +230,7 @@ impl Open {
                 failures: 0,
             };
             match taken {
-                TakenIn::Queue(id) => self.backlog.add(waiting(id)),
+                TakenIn::Queue { id, .. } => self.backlog.add(waiting(id)),
                 TakenIn::Running => {}
                 TakenIn::Done(id) => self.settle_again(waiting(id), 1, None)?,
                 TakenIn::Quarantined(row) => {

@@ -32,6 +32,8 @@ pub(super) struct Waiting {
     pub since: Instant,
     /// It failed, and is not to be tried again before this time.
     pub not_before: Option<Instant>,
+    /// It may have brought the program down before: nothing else is to run beside it.
+    pub suspect: bool,
     /// How often it has failed since the daemon was started.
     pub failures: u32,
 }

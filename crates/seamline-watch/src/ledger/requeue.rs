@@ -115,7 +115,7 @@ fn enter(connection: &Connection, row: &Row, path: &Path, stamp: Stamp) -> rusql
         [&row.content],
     )?;
     transaction.execute(
-        "UPDATE jobs SET state = 'pending', path = ?2, relative = ?3, stamp = ?4, attempts = 0, crashes = 0, \
+        "UPDATE jobs SET state = 'pending', path = ?2, relative = ?3, stamp = ?4, attempts = 0, crashes = 0, suspect = 0, \
          source = NULL, result = NULL, same_as = NULL, stage = NULL, message = NULL, hint = NULL, \
          of_content = 0, content = NULL, ended_at = NULL WHERE id = ?1",
         params![

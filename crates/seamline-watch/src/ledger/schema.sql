@@ -13,7 +13,9 @@ CREATE TABLE jobs (
     state           TEXT NOT NULL CHECK (state IN ('pending', 'running', 'done', 'quarantined', 'gone')),
     -- How often it was begun.
     attempts        INTEGER NOT NULL DEFAULT 0,
-    -- How often the program came to its end while it worked on it.
+    -- The program came to its end while it worked on this and others: it is to be begun alone.
+    suspect         INTEGER NOT NULL DEFAULT 0,
+    -- How often the program came to its end while it worked on this alone.
     crashes         INTEGER NOT NULL DEFAULT 0,
     -- Times in milliseconds since 1970.
     queued_at       INTEGER NOT NULL,

@@ -23,7 +23,12 @@ pub struct Arrival<'a> {
 #[derive(Clone, Debug, PartialEq)]
 pub enum TakenIn {
     /// It is to be cut.
-    Queue(JobId),
+    Queue {
+        /// Its row.
+        id: JobId,
+        /// It may have brought the program down before: nothing else is to run beside it.
+        suspect: bool,
+    },
     /// In this state it is being worked on.
     Running,
     /// Its results are there; what is to become of the source may have been cut short by a crash.
@@ -69,11 +74,15 @@ fn one(
         JobState::Pending => {
             if !same_file {
                 transaction.execute(
-                    "UPDATE jobs SET stamp = ?2, content = NULL, attempts = 0, crashes = 0 WHERE id = ?1",
+                    "UPDATE jobs SET stamp = ?2, content = NULL, attempts = 0, crashes = 0, suspect = 0 WHERE id = ?1",
                     params![last.id.0, arrival.stamp],
                 )?;
             }
-            TakenIn::Queue(last.id)
+            let suspect = same_file && is_suspect(transaction, last.id)?;
+            TakenIn::Queue {
+                id: last.id,
+                suspect,
+            }
         }
         JobState::Running if same_file => TakenIn::Running,
         JobState::Done if same_work && has_results(transaction, &last)? => TakenIn::Done(last.id),
@@ -92,6 +101,12 @@ fn has_results(transaction: &Transaction<'_>, row: &Row) -> Result<bool, LedgerE
     Ok(held.exists([holder.0])?)
 }
 
+fn is_suspect(transaction: &Transaction<'_>, id: JobId) -> Result<bool, LedgerError> {
+    let mut suspect =
+        transaction.prepare_cached("SELECT 1 FROM jobs WHERE id = ?1 AND suspect = 1")?;
+    Ok(suspect.exists([id.0])?)
+}
+
 fn new(transaction: &Transaction<'_>, arrival: &Arrival<'_>) -> Result<TakenIn, LedgerError> {
     let mut insert = transaction.prepare_cached(
         "INSERT INTO jobs (path, relative, stamp, state, queued_at) VALUES (?1, ?2, ?3, 'pending', ?4)",
@@ -102,5 +117,8 @@ fn new(transaction: &Transaction<'_>, arrival: &Arrival<'_>) -> Result<TakenIn, 
         arrival.stamp,
         now_ms()
     ])?;
-    Ok(TakenIn::Queue(JobId(id)))
+    Ok(TakenIn::Queue {
+        id: JobId(id),
+        suspect: false,
+    })
 }

@@ -33,7 +33,7 @@ impl Home {
 
     fn queue(&mut self, path: &str, stamp: &str) -> JobId {
         match self.take_in(path, stamp) {
-            TakenIn::Queue(id) => id,
+            TakenIn::Queue { id, .. } => id,
             other => panic!("{other:?}"),
         }
     }
@@ -132,7 +132,9 @@ fn done_work_is_done_again_under_other_settings_only() {
     let mut home = Home::new();
     let (id, _) = home.done("a", "1", "c1");
     assert_eq!(home.take_in("a", "1"), TakenIn::Done(id));
-    assert!(matches!(home.take_in_with("a", "1", "s2"), TakenIn::Queue(other) if other != id));
+    assert!(
+        matches!(home.take_in_with("a", "1", "s2"), TakenIn::Queue { id: other, .. } if other != id)
+    );
 }
 
 #[test]
@@ -188,7 +190,7 @@ fn files_of_the_same_content_as_replaced_results_are_named() {
     assert_eq!(home.take_in("b", "1"), TakenIn::Done(copy));
     let (_, stranded) = home.done("a", "2", "c2");
     assert_eq!(stranded, [PathBuf::from("b")]);
-    assert!(matches!(home.take_in("b", "1"), TakenIn::Queue(_)));
+    assert!(matches!(home.take_in("b", "1"), TakenIn::Queue { .. }));
 }
 
 #[test]
@@ -205,6 +207,40 @@ fn what_a_crash_left_running_is_pending_again_until_it_was_begun_too_often() {
     assert_eq!(row.state, JobState::Quarantined);
     assert!(row.message.unwrap().contains("3 times"));
     assert!(matches!(home.take_in("a", "1"), TakenIn::Quarantined(_)));
+}
+
+#[test]
+fn what_ran_beside_others_in_a_crash_is_suspected_and_not_given_up() {
+    let mut home = Home::new();
+    let ids = [home.queue("a", "1"), home.queue("b", "1")];
+    for _ in 0..10 {
+        for id in ids {
+            home.ledger.begin(id, SETTINGS).unwrap();
+        }
+        home = home.reopen();
+        assert_eq!(home.ledger.recover().unwrap(), (2, 0));
+        assert_eq!(
+            home.take_in("a", "1"),
+            TakenIn::Queue {
+                id: ids[0],
+                suspect: true
+            }
+        );
+    }
+    assert_eq!(
+        home.take_in("a", "2"),
+        TakenIn::Queue {
+            id: ids[0],
+            suspect: false
+        }
+    );
+    assert_eq!(
+        home.take_in("a", "2"),
+        TakenIn::Queue {
+            id: ids[0],
+            suspect: false
+        }
+    );
 }
 
 #[test]

@@ -4,7 +4,7 @@ use std::fs;
 use std::thread::sleep;
 use std::time::{Duration, SystemTime};
 
-use seamline_tests::daemon::{Daemon, Home, Signal, cuboid, cuboids, leftovers, torus};
+use seamline_tests::daemon::{Daemon, Home, Metrics, Signal, cuboid, cuboids, leftovers, torus};
 use seamline_tests::run;
 
 const METRICS: &str = "[http]\nlisten = \"127.0.0.1:0\"\n";
@@ -262,7 +262,9 @@ fn output_inside_watch_is_refused() {
 /// Every family has its help and its kind, is told once, and moves with what happens.
 #[test]
 fn metrics_exist_and_move() {
-    let home = Home::with(&format!("stable_for_ms = 100\n{METRICS}"));
+    let home = Home::with(&format!(
+        "stable_for_ms = 100\n[daemon]\nrescan_ms = 2000\n{METRICS}"
+    ));
     let daemon = home.start();
     let (alive, word) = daemon.get("/health");
     assert_eq!((alive, word.trim()), (200, "ok"));
@@ -331,7 +333,10 @@ fn metrics_exist_and_move() {
     }
     let after = daemon.metrics();
     assert_eq!(after.value("seamline_read_bytes_total", &[]), bytes as f64);
-    assert!(after.value("seamline_scans_total", &[]) > before.value("seamline_scans_total", &[]));
+    daemon.wait_for("another listing", || {
+        let scans = |metrics: &Metrics| metrics.value("seamline_scans_total", &[]);
+        scans(&daemon.metrics()) > scans(&before)
+    });
     for stage in [
         "read",
         "import",

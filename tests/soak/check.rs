@@ -80,14 +80,14 @@ fn reasons(home: &Home) -> BTreeMap<String, u32> {
         let reason = results.reason(&name);
         let reason = reason.unwrap_or_else(|| panic!("{name} is in quarantine without a reason"));
         let bytes = std::fs::read(results.quarantine.join(&name)).unwrap();
-        assert_eq!(reason["blake3"], hash(&bytes), "{name}");
+        assert_eq!(reason["blake3"], hash(&bytes), "{name}: {reason}");
         *found.entry(hash(&bytes)).or_insert(0) += 1;
     }
     found
 }
 
 /// Prints what came of it.
-pub fn figures(status: &Status, files: usize, kills: u32) {
+pub fn figures(status: &Status, files: usize) {
     let ended = |state: &str| status.count(state);
     let repeated = status.jobs.iter().filter(|job| job.attempts > 1).count();
     let same = status
@@ -95,10 +95,7 @@ pub fn figures(status: &Status, files: usize, kills: u32) {
         .iter()
         .filter(|job| job.same_as.is_some())
         .count();
-    println!(
-        "{files} files stayed, {kills} kills, {} jobs",
-        status.jobs.len()
-    );
+    println!("{files} files stayed, {} jobs", status.jobs.len());
     println!(
         "{} done ({same} of them of the same content as another), {} quarantined, {} gone, {repeated} begun more than once",
         ended("done"),

@@ -11,7 +11,7 @@ mod writers;
 use std::thread;
 use std::time::{Duration, Instant};
 
-use seamline_tests::daemon::{Home, wait_within};
+use seamline_tests::daemon::{Home, leftovers, wait_within};
 use writers::{Dropped, Writer};
 
 const WRITERS: u32 = 4;
@@ -42,7 +42,7 @@ fn nothing_is_lost_under_fire() {
     let home = Home::with(CONFIG);
     let pace = lasts * WRITERS / files;
 
-    let mut kills = 0;
+    let [mut kills, mut in_writing] = [0, 0];
     let dropped: Dropped = thread::scope(|scope| {
         let writers: Vec<_> = (0..WRITERS)
             .map(|number| {
@@ -56,6 +56,11 @@ fn nothing_is_lost_under_fire() {
             let lives = Duration::from_millis(random.u64(2000..8000));
             let ended = || writers.iter().all(|writer| writer.is_finished());
             wait_within(lives, ended);
+            // Every other one in the middle of writing, if that comes soon.
+            if kills % 2 == 1 {
+                let writes = || !leftovers(&home.at("out")).is_empty();
+                in_writing += u32::from(wait_within(lives, || writes() || ended()) && writes());
+            }
             daemon.kill();
             kills += 1;
         }
@@ -84,7 +89,8 @@ fn nothing_is_lost_under_fire() {
     println!("drained in {:.1} s", started.elapsed().as_secs_f64() - 8.0);
     assert_eq!(daemon.terminate(), Some(0));
 
-    check::figures(&home.status(), dropped.len(), kills);
+    println!("{kills} kills, {in_writing} of them in the middle of writing");
+    check::figures(&home.status(), dropped.len());
     let calm = check::undisturbed(&dropped);
     check::nothing_is_lost(&home, &calm, &dropped);
 }

@@ -100,7 +100,7 @@ impl Writer {
             let faces = Some(6);
             return (Content { bytes, faces }, "obj");
         }
-        let mut bytes = torus(self.random.usize(500..30_000));
+        let mut bytes = torus(self.random.usize(500..150_000));
         bytes[..4].copy_from_slice(&number.to_le_bytes());
         let faces = Some((bytes.len() - 84) / 50);
         (Content { bytes, faces }, "stl")

@@ -53,10 +53,10 @@ impl Backlog {
             job.not_before.is_none_or(|due| due <= now) && !self.running.contains_key(&job.path)
         };
         let (&at, first) = self.waiting.iter().find(|(_, job)| may_run(job))?;
-        if first.suspect && !self.running.is_empty() {
+        if first.suspicion > 0 && !self.running.is_empty() {
             return None;
         }
-        self.suspect_runs = first.suspect.then_some(first.id);
+        self.suspect_runs = (first.suspicion > 0).then_some(first.id);
         let job = self.waiting.remove(&at)?;
         self.by_path.remove(&job.path);
         self.running.insert(job.path.clone(), job.id);
@@ -132,7 +132,7 @@ mod tests {
             overdue: false,
             since: Instant::now(),
             not_before: None,
-            suspect: false,
+            suspicion: 0,
             failures: 0,
         }
     }
@@ -190,7 +190,7 @@ mod tests {
     fn a_suspect_runs_alone() {
         let mut backlog = Backlog::default();
         let suspect = |name, id| Waiting {
-            suspect: true,
+            suspicion: 1,
             ..job(name, id)
         };
         backlog.add(job("a", 1));

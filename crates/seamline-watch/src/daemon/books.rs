@@ -216,11 +216,14 @@ impl Open {
             .collect();
         let settings = self.with.setup.settings_hash.clone();
         let taken = self.record(|ledger| ledger.take_in(&arrivals, &settings))?;
-        for (ready, taken) in ready.into_iter().zip(taken) {
-            let suspect = matches!(taken, TakenIn::Queue { suspect: true, .. });
+        let mut taken: Vec<_> = ready.into_iter().zip(taken).collect();
+        // Those that may bring the program down come when the others are done.
+        taken.sort_by_key(|(_, taken)| taken.suspicion());
+        for (ready, taken) in taken {
+            let suspicion = taken.suspicion();
             let waiting = |id| Waiting {
                 id,
-                suspect,
+                suspicion,
                 path: ready.file.path,
                 relative: ready.relative,
                 stamp: ready.file.stamp,

@@ -32,8 +32,9 @@ pub(super) struct Waiting {
     pub since: Instant,
     /// It failed, and is not to be tried again before this time.
     pub not_before: Option<Instant>,
-    /// It may have brought the program down before: nothing else is to run beside it.
-    pub suspect: bool,
+    /// Above 0 it may have brought the program down before, the higher the likelier: nothing else is to run
+    /// beside it.
+    pub suspicion: u32,
     /// How often it has failed since the daemon was started.
     pub failures: u32,
 }

@@ -26,8 +26,9 @@ pub enum TakenIn {
     Queue {
         /// Its row.
         id: JobId,
-        /// It may have brought the program down before: nothing else is to run beside it.
-        suspect: bool,
+        /// Above 0 it may have brought the program down before, the higher the likelier: nothing else is to run
+        /// beside it.
+        suspicion: u32,
     },
     /// In this state it is being worked on.
     Running,
@@ -35,6 +36,16 @@ pub enum TakenIn {
     Done(JobId),
     /// It failed for good; it may be that it could not be moved.
     Quarantined(Box<Row>),
+}
+
+impl TakenIn {
+    /// Of a job that is to be cut: how likely it is to bring the program down. 0 for all others.
+    pub fn suspicion(&self) -> u32 {
+        match self {
+            Self::Queue { suspicion, .. } => *suspicion,
+            _ => 0,
+        }
+    }
 }
 
 impl Ledger {
@@ -78,10 +89,9 @@ fn one(
                     params![last.id.0, arrival.stamp],
                 )?;
             }
-            let suspect = same_file && is_suspect(transaction, last.id)?;
             TakenIn::Queue {
                 id: last.id,
-                suspect,
+                suspicion: suspicion(transaction, last.id)?,
             }
         }
         JobState::Running if same_file => TakenIn::Running,
@@ -101,10 +111,9 @@ fn has_results(transaction: &Transaction<'_>, row: &Row) -> Result<bool, LedgerE
     Ok(held.exists([holder.0])?)
 }
 
-fn is_suspect(transaction: &Transaction<'_>, id: JobId) -> Result<bool, LedgerError> {
-    let mut suspect =
-        transaction.prepare_cached("SELECT 1 FROM jobs WHERE id = ?1 AND suspect = 1")?;
-    Ok(suspect.exists([id.0])?)
+fn suspicion(transaction: &Transaction<'_>, id: JobId) -> Result<u32, LedgerError> {
+    let mut of = transaction.prepare_cached("SELECT suspect + crashes FROM jobs WHERE id = ?1")?;
+    Ok(of.query_row([id.0], |row| row.get(0))?)
 }
 
 fn new(transaction: &Transaction<'_>, arrival: &Arrival<'_>) -> Result<TakenIn, LedgerError> {
@@ -119,6 +128,6 @@ fn new(transaction: &Transaction<'_>, arrival: &Arrival<'_>) -> Result<TakenIn, 
     ])?;
     Ok(TakenIn::Queue {
         id: JobId(id),
-        suspect: false,
+        suspicion: 0,
     })
 }

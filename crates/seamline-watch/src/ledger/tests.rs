@@ -223,7 +223,7 @@ fn what_ran_beside_others_in_a_crash_is_suspected_and_not_given_up() {
             home.take_in("a", "1"),
             TakenIn::Queue {
                 id: ids[0],
-                suspect: true
+                suspicion: 1
             }
         );
     }
@@ -231,14 +231,14 @@ fn what_ran_beside_others_in_a_crash_is_suspected_and_not_given_up() {
         home.take_in("a", "2"),
         TakenIn::Queue {
             id: ids[0],
-            suspect: false
+            suspicion: 0
         }
     );
     assert_eq!(
         home.take_in("a", "2"),
         TakenIn::Queue {
             id: ids[0],
-            suspect: false
+            suspicion: 0
         }
     );
 }

@@ -259,6 +259,37 @@ fn a_file_that_kills_the_daemon_is_quarantined_in_the_end() {
     assert_eq!(daemon.terminate(), Some(0));
 }
 
+/// Files that were in work beside it, and that come before and after it, are not taken for it.
+#[test]
+fn a_file_that_kills_the_daemon_takes_no_others_with_it() {
+    let home = Home::with("stable_for_ms = 100\n[daemon]\nworkers = 1\n");
+    let Some(disk) = FailingDisk::new(&home) else {
+        return;
+    };
+    home.drop("deadly.obj", cuboid(100.0));
+    for (name, text) in cuboids(8) {
+        home.drop(format!("after-{name}"), text);
+    }
+    home.drop("before.stl", torus(20_000));
+    let mut kills = 0;
+    while home.reason("deadly.obj").is_none() {
+        assert!(kills < 10, "{:#?}", home.status());
+        disk.hold();
+        let daemon = home.start_as(disk.under(&mut home.watch(), "inbox/deadly", EIO));
+        daemon.wait_for("the end of the file or of the daemon", || {
+            disk.is_holding() || home.reason("deadly.obj").is_some()
+        });
+        daemon.kill();
+        kills += 1;
+    }
+    disk.let_go();
+    home.once().ended(0);
+    let status = home.status();
+    assert_eq!(status.count("done"), 9, "{status:#?}");
+    assert_eq!(home.results().quarantined(), ["deadly.obj"]);
+    assert_eq!(home.results().names().len(), 9);
+}
+
 /// Files that want more than there is are refused, each for its reason, and cost no memory.
 #[test]
 fn too_large_or_packed_is_refused() {

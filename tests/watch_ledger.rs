@@ -325,6 +325,8 @@ fn crash_resumes_all() {
             && status.count("done") + status.count("quarantined") >= u64::from(FILES)
     };
     daemon.wait_for("every file done or quarantined", ended);
+    home.requeue_casualties();
+    daemon.wait_for("every file done or quarantined", ended);
     assert_eq!(daemon.terminate(), Some(0));
 
     let status = home.status();

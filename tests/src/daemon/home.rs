@@ -138,6 +138,19 @@ impl Home {
     pub fn requeue(&self, what: &[&str]) -> Ran {
         run(seamline().arg("requeue").arg(self.config()).args(what)).ended(0)
     }
+
+    /// Brings back the files that were in quarantine only because the daemon was killed again and again while
+    /// it worked on them, and tells how many there were.
+    pub fn requeue_casualties(&self) -> usize {
+        let jobs = self.status().jobs.into_iter();
+        let blamed =
+            jobs.filter(|job| job.state == "quarantined" && job.stage.as_deref() == Some("run"));
+        let ids: Vec<_> = blamed.map(|job| job.id.to_string()).collect();
+        if !ids.is_empty() {
+            self.requeue(&ids.iter().map(String::as_str).collect::<Vec<_>>());
+        }
+        ids.len()
+    }
 }
 
 impl Default for Home {

@@ -1,6 +1,8 @@
 //! The thread that keeps the books: what is ready, what waits, what runs, and what came of it.
 
+mod arrivals;
 mod enter;
+mod obey;
 mod tell;
 
 use std::path::Path;
@@ -9,17 +11,17 @@ use std::thread::sleep;
 use std::time::{Duration, Instant};
 
 use crossbeam_channel::{Receiver, RecvError, TryRecvError, never, select};
-use tracing::{Span, error, error_span, info, warn};
+use tracing::{Span, error_span, info, warn};
 
 use super::backlog::Backlog;
 use super::crew::Crew;
-use super::job::{Failure, Job, Remedy, Waiting};
-use super::lookout::{Lookout, Ready};
-use super::{Order, Reload, RunOptions, Summary, WatchError, make_folders};
-use crate::config::{After, Config};
+use super::job::{Job, Waiting};
+use super::lookout::Lookout;
+use super::{Order, Reload, RunOptions, Summary, WatchError};
+use crate::config::{Config, Watched};
 use crate::events::Events;
 use crate::health::{Health, Trouble};
-use crate::ledger::{Arrival, Fault, Ledger, LedgerError, Row, TakenIn};
+use crate::ledger::{Ledger, LedgerError};
 use crate::metrics::Metrics;
 use crate::setup::Setup;
 use crate::{service, shown};
@@ -200,87 +202,6 @@ impl Open {
         Ok(())
     }
 
-    fn take_in(&mut self, ready: Vec<Ready>) -> Result<(), WatchError> {
-        if ready.is_empty() {
-            return Ok(());
-        }
-        let stamps: Vec<_> = ready.iter().map(|ready| ready.file.stamp.word()).collect();
-        let arrivals: Vec<_> = ready
-            .iter()
-            .zip(&stamps)
-            .map(|(ready, stamp)| Arrival {
-                path: &ready.file.path,
-                relative: &ready.relative,
-                stamp,
-            })
-            .collect();
-        let settings = self.with.setup.settings_hash.clone();
-        let taken = self.record(|ledger| ledger.take_in(&arrivals, &settings))?;
-        let mut taken: Vec<_> = ready.into_iter().zip(taken).collect();
-        // Those that may bring the program down come when the others are done.
-        taken.sort_by_key(|(_, taken)| taken.suspicion());
-        for (ready, taken) in taken {
-            let suspicion = taken.suspicion();
-            let waiting = |id| Waiting {
-                id,
-                suspicion,
-                path: ready.file.path,
-                relative: ready.relative,
-                stamp: ready.file.stamp,
-                overdue: ready.file.overdue,
-                since: Instant::now(),
-                not_before: None,
-                failures: 0,
-            };
-            match taken {
-                TakenIn::Queue { id, .. } => self.backlog.add(waiting(id)),
-                TakenIn::Running => {}
-                TakenIn::Done(id) => self.settle_again(waiting(id), 1, None)?,
-                TakenIn::Quarantined(row) => {
-                    self.summary.failed += 1;
-                    self.settle_again(waiting(row.id), row.attempts, Some(failure_of(*row)))?;
-                }
-            }
-        }
-        Ok(())
-    }
-
-    /// A crash may have come between what the ledger says of a job and what was to become of its file.
-    fn settle_again(
-        &mut self,
-        file: Waiting,
-        attempts: u32,
-        failure: Option<Failure>,
-    ) -> Result<(), WatchError> {
-        let Some(job) = self.job(file, attempts) else {
-            return Ok(());
-        };
-        if (failure.is_none() && job.after == After::Keep) || !self.backlog.start(&job.file) {
-            return Ok(());
-        }
-        self.settle(job, failure)
-    }
-
-    fn settle(&self, job: Job, failure: Option<Failure>) -> Result<(), WatchError> {
-        if self.with.crew.settle(job, failure) {
-            Ok(())
-        } else {
-            Err(WatchError::CrewLost)
-        }
-    }
-
-    /// Files that went away while they waited for more of themselves, or while nobody watched.
-    fn reconcile(&mut self) -> Result<(), WatchError> {
-        self.reconciled_at = Some(Instant::now());
-        for (id, path) in self.record(|ledger| ledger.pending())? {
-            if !self.backlog.has(&path) && self.with.lookout.is_missing(&path) {
-                info!("{}: gone before it was read", shown(&path));
-                self.record(|ledger| ledger.gone(id))?;
-            }
-        }
-        Ok(())
-    }
-
     fn hand_over(&mut self) -> Result<(), WatchError> {
         while self.with.crew.has_room() {
             let Some(file) = self.backlog.next(Instant::now()) else {
@@ -313,82 +234,6 @@ impl Open {
             setup,
             file,
         })
-    }
-
-    fn obey(&mut self, order: Option<Order>) {
-        match order {
-            Some(Order::Stop) => self.stop(),
-            Some(Order::Reload) => self.reload(),
-            // Nobody is left who could stop the daemon, which is no reason to stop.
-            None => self.with.orders = never(),
-        }
-    }
-
-    fn stop(&mut self) {
-        if self.stop_by.is_some() {
-            self.stop_by = Some(Instant::now());
-            return;
-        }
-        info!(
-            "stopping: {} running, {} waiting",
-            self.backlog.running().len(),
-            self.backlog.waiting()
-        );
-        service::stopping();
-        self.with.health.raise(Trouble::Stopping, "told to stop");
-        self.stop_by = Some(Instant::now() + self.with.setup.config.drain_for);
-        self.with.crew.begin_nothing_new();
-    }
-
-    fn leave_unfinished(&mut self) -> Result<(), WatchError> {
-        let running: Vec<_> = self.backlog.running().collect();
-        self.summary.unfinished = running.len();
-        warn!(
-            "{} did not end in time and will be done again",
-            running.len()
-        );
-        for id in running {
-            self.with.ledger.put_back_unless_ended(id)?;
-        }
-        Ok(())
-    }
-
-    fn reload(&mut self) {
-        let Some(reload) = &mut self.with.reload else {
-            return;
-        };
-        service::reloading();
-        let read = reload.read().and_then(|setup| {
-            make_folders(&setup.config).map_err(|error| format!("{error}; {}", error.hint()))?;
-            Ok(setup)
-        });
-        self.with.metrics.reloaded(read.is_ok());
-        match read {
-            Ok(setup) => self.change_to(setup),
-            Err(why) => error!("the configuration is refused, the old one stays in force: {why}"),
-        }
-        service::ready();
-    }
-
-    fn change_to(&mut self, mut setup: Setup) {
-        for key in needs_restart(&self.with.setup.config, &setup.config) {
-            warn!("`{key}` has changed: that holds from the next start on");
-        }
-        setup.config.state.clone_from(&self.with.setup.config.state);
-        let config = &setup.config;
-        for (root, _) in self.with.lookout.presence() {
-            self.with
-                .health
-                .clear(&Trouble::FolderAway(root.to_owned()));
-        }
-        self.with.lookout.retarget(config);
-        self.with.events.retarget(&config.watch);
-        let limit = crate::memory::limit(config.limits.memory_limit_bytes);
-        self.with.crew.gate().set_limit(limit);
-        self.backlog
-            .retain(|job| watched_with(config, &job.path).is_some());
-        info!("the configuration was read anew and holds from the next job on");
-        self.with.setup = Arc::new(setup);
     }
 
     /// Reads or writes the ledger. While that is not possible, because its disk is full or somebody else has
@@ -428,7 +273,7 @@ impl Open {
     }
 }
 
-fn watched_with<'a>(config: &'a Config, path: &Path) -> Option<&'a crate::config::Watched> {
+fn watched_with<'a>(config: &'a Config, path: &Path) -> Option<&'a Watched> {
     config
         .watch
         .iter()
@@ -438,30 +283,4 @@ fn watched_with<'a>(config: &'a Config, path: &Path) -> Option<&'a crate::config
 /// Of the highest level, so that it is told along with whatever is said.
 fn span_of(file: &Waiting) -> Span {
     error_span!("job", id = file.id.0, path = %shown(&file.path))
-}
-
-fn failure_of(row: Row) -> Failure {
-    Failure {
-        fault: Fault {
-            stage: row.stage.unwrap_or_default(),
-            message: row.message.unwrap_or_default(),
-            hint: row.hint.unwrap_or_default(),
-            of_content: false,
-        },
-        content: row.content,
-        remedy: Remedy::None,
-    }
-}
-
-/// The keys that cannot change while the daemon runs, and have.
-fn needs_restart<'a>(old: &Config, new: &Config) -> impl Iterator<Item = &'a str> {
-    [
-        ("state.dir", old.state != new.state),
-        ("daemon.workers", old.workers != new.workers),
-        ("daemon.queue", old.queue != new.queue),
-        ("http.listen", old.http != new.http),
-        ("log", old.log != new.log),
-    ]
-    .into_iter()
-    .filter_map(|(key, changed)| changed.then_some(key))
 }

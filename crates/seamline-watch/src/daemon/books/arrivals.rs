@@ -1,0 +1,109 @@
+//! Files that have held still are entered; those that went away are crossed out.
+
+use std::time::Instant;
+
+use tracing::info;
+
+use super::Open;
+use crate::config::After;
+use crate::daemon::WatchError;
+use crate::daemon::job::{Failure, Job, Remedy, Waiting};
+use crate::daemon::lookout::Ready;
+use crate::ledger::{Arrival, Fault, Row, TakenIn};
+use crate::shown;
+
+impl Open {
+    pub(super) fn take_in(&mut self, ready: Vec<Ready>) -> Result<(), WatchError> {
+        if ready.is_empty() {
+            return Ok(());
+        }
+        let stamps: Vec<_> = ready.iter().map(|ready| ready.file.stamp.word()).collect();
+        let arrivals: Vec<_> = ready
+            .iter()
+            .zip(&stamps)
+            .map(|(ready, stamp)| Arrival {
+                path: &ready.file.path,
+                relative: &ready.relative,
+                stamp,
+            })
+            .collect();
+        let settings = self.with.setup.settings_hash.clone();
+        let taken = self.record(|ledger| ledger.take_in(&arrivals, &settings))?;
+        let mut taken: Vec<_> = ready.into_iter().zip(taken).collect();
+        // Those that may bring the program down come when the others are done.
+        taken.sort_by_key(|(_, taken)| taken.suspicion());
+        for (ready, taken) in taken {
+            let suspicion = taken.suspicion();
+            let waiting = |id| Waiting {
+                id,
+                suspicion,
+                path: ready.file.path,
+                relative: ready.relative,
+                stamp: ready.file.stamp,
+                overdue: ready.file.overdue,
+                since: Instant::now(),
+                not_before: None,
+                failures: 0,
+            };
+            match taken {
+                TakenIn::Queue { id, .. } => self.backlog.add(waiting(id)),
+                TakenIn::Running => {}
+                TakenIn::Done(id) => self.settle_again(waiting(id), 1, None)?,
+                TakenIn::Quarantined(row) => {
+                    self.summary.failed += 1;
+                    self.settle_again(waiting(row.id), row.attempts, Some(failure_of(*row)))?;
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// A crash may have come between what the ledger says of a job and what was to become of its file.
+    pub(super) fn settle_again(
+        &mut self,
+        file: Waiting,
+        attempts: u32,
+        failure: Option<Failure>,
+    ) -> Result<(), WatchError> {
+        let Some(job) = self.job(file, attempts) else {
+            return Ok(());
+        };
+        if (failure.is_none() && job.after == After::Keep) || !self.backlog.start(&job.file) {
+            return Ok(());
+        }
+        self.settle(job, failure)
+    }
+
+    pub(super) fn settle(&self, job: Job, failure: Option<Failure>) -> Result<(), WatchError> {
+        if self.with.crew.settle(job, failure) {
+            Ok(())
+        } else {
+            Err(WatchError::CrewLost)
+        }
+    }
+
+    /// Files that went away while they waited for more of themselves, or while nobody watched.
+    pub(super) fn reconcile(&mut self) -> Result<(), WatchError> {
+        self.reconciled_at = Some(Instant::now());
+        for (id, path) in self.record(|ledger| ledger.pending())? {
+            if !self.backlog.has(&path) && self.with.lookout.is_missing(&path) {
+                info!("{}: gone before it was read", shown(&path));
+                self.record(|ledger| ledger.gone(id))?;
+            }
+        }
+        Ok(())
+    }
+}
+
+fn failure_of(row: Row) -> Failure {
+    Failure {
+        fault: Fault {
+            stage: row.stage.unwrap_or_default(),
+            message: row.message.unwrap_or_default(),
+            hint: row.hint.unwrap_or_default(),
+            of_content: false,
+        },
+        content: row.content,
+        remedy: Remedy::None,
+    }
+}

@@ -9,6 +9,7 @@
 pub mod config;
 pub mod daemon;
 pub mod events;
+mod fitted;
 pub mod health;
 pub mod http;
 pub mod include;

@@ -4,7 +4,7 @@ mod folder;
 mod report;
 mod sweep;
 
-use std::ffi::{OsStr, OsString};
+use std::ffi::OsStr;
 use std::fs::File;
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
@@ -19,6 +19,7 @@ use seamline_mesh::write::{
 };
 use serde::{Deserialize, Serialize};
 
+use crate::fitted::fitted;
 use crate::retry::is_full_disk;
 
 pub use report::{JobFacts, REPORT_SCHEMA_VERSION, report};
@@ -163,11 +164,10 @@ impl OutputError {
     }
 }
 
-/// The folder that holds the results of an input of this name.
+/// The folder that holds the results of an input of this name: its name and `.seamline`. A name that is too long
+/// for that is shortened.
 pub fn result_folder(destination_parent: &Path, input_name: &OsStr) -> PathBuf {
-    let mut name = OsString::from(input_name);
-    name.push(FOLDER_SUFFIX);
-    destination_parent.join(name)
+    destination_parent.join(fitted(input_name, FOLDER_SUFFIX))
 }
 
 /// Writes the results of one mesh to `destination_parent/input_name.seamline/` and gives that path.

@@ -1,12 +1,12 @@
 //! Files that could not be cut, put aside with the reason beside them.
 
-use std::ffi::OsString;
 use std::fs;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 use serde::Serialize;
 
+use crate::fitted::fitted;
 use crate::outputs::{TEMPORARY_END, TEMPORARY_START};
 use crate::relocate::{move_aside_with, sync_folder};
 
@@ -68,9 +68,7 @@ fn write_reason(source: &Path, place: &Path, reason: &Reason<'_>) -> io::Result<
 
 /// Where the reason for a file in quarantine stands.
 pub fn reason_beside(place: &Path) -> PathBuf {
-    let mut name = place.file_name().map(OsString::from).unwrap_or_default();
-    name.push(".error.json");
-    place.with_file_name(name)
+    place.with_file_name(fitted(place.file_name().unwrap_or_default(), ".error.json"))
 }
 
 #[cfg(test)]

@@ -8,6 +8,7 @@ use std::path::{Path, PathBuf};
 use rustix::fs::{CWD, RenameFlags, renameat_with};
 use rustix::io::Errno;
 
+use crate::fitted::fitted;
 use crate::outputs::{TEMPORARY_END, TEMPORARY_START, hold};
 
 /// How many names are tried before it is taken for a mistake.
@@ -69,7 +70,7 @@ fn numbered(path: &Path, number: u32) -> PathBuf {
         name.push(".");
         name.push(extension);
     }
-    path.with_file_name(name)
+    path.with_file_name(fitted(&name, ""))
 }
 
 /// Renames, and fails if something has the new name already.

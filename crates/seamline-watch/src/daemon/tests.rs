@@ -448,3 +448,16 @@ fn two_daemons_do_not_share_a_state_folder() {
     assert!(matches!(refused, WatchError::Locked(_)), "{refused}");
     running.stop();
 }
+
+#[test]
+fn the_longest_names_have_results_and_reasons_too() {
+    let home = Home::new();
+    let [good, bad] = ["g", "b"].map(|letter| letter.repeat(251) + ".obj");
+    home.drop(&good, 1);
+    home.drop_text(&bad, "v 0 0 0\nf 1 2 3\n");
+    assert_eq!(home.once("after = 'move'"), summary(1, 1));
+    assert!(home.at("done").join(&good).exists());
+    assert!(home.in_quarantine(&bad).is_some());
+    let result = home.rows()[1].result.clone().unwrap();
+    assert!(result.join("report.json").exists());
+}

@@ -26,4 +26,4 @@ pub use pipeline::{BuiltinSteps, InstallStep, Pipeline, PipelineSettings, tables
 pub use plugin::{PluginEntry, Registry, StagePlugin, SwappableStage};
 pub use results::Segmentation;
 pub use stage::{Stage, StageSystems, StepError, fallible};
-pub use worker::{StageError, Worker};
+pub use worker::{Progress, StageError, Worker};

@@ -1,6 +1,7 @@
 //! One world and one schedule, through which mesh after mesh passes.
 
 use std::sync::Arc;
+use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Instant;
 
 use bevy_ecs::prelude::*;
@@ -34,6 +35,23 @@ pub struct Worker {
     schedule: Schedule,
     rows: usize,
     pool: Option<ThreadPool>,
+    progress: Progress,
+}
+
+/// Which stage a worker is in, to be asked from another thread, or after a panic.
+#[derive(Clone, Debug, Default, Resource)]
+pub struct Progress(Arc<AtomicUsize>);
+
+impl Progress {
+    /// The stage under way; the last one, once all are through.
+    pub fn stage(&self) -> Stage {
+        let at = self.0.load(Ordering::Relaxed);
+        Stage::ALL[at.min(Stage::ALL.len() - 1)]
+    }
+
+    fn set(&self, stages_done: usize) {
+        self.0.store(stages_done, Ordering::Relaxed);
+    }
 }
 
 /// Times each stage, and notes in which one a job failed.
@@ -47,6 +65,11 @@ struct StageClock {
 impl Worker {
     /// A worker for `pipeline`, with no rows yet.
     pub fn new(pipeline: Arc<Pipeline>) -> Self {
+        Self::with_progress(pipeline, Progress::default())
+    }
+
+    /// As [`Worker::new`]; `progress` tells which stage it is in.
+    pub fn with_progress(pipeline: Arc<Pipeline>, progress: Progress) -> Self {
         // Where no pool is to be had the one there is serves: results are the same.
         let threads = [0, rayon::current_num_threads()];
         let pool = (!threads.contains(&pipeline.threads()))
@@ -56,13 +79,14 @@ impl Worker {
                     .build()
             })
             .and_then(Result::ok);
-        let (world, schedule) = fresh(&pipeline);
+        let (world, schedule) = fresh(&pipeline, &progress);
         Self {
             pipeline,
             world,
             schedule,
             rows: 0,
             pool,
+            progress,
         }
     }
 
@@ -72,7 +96,7 @@ impl Worker {
     pub fn segment(&mut self, mesh: Arc<Mesh>) -> Result<Segmentation, StageError> {
         let rows = mesh.triangles.len();
         if rows < self.rows / 2 {
-            (self.world, self.schedule) = fresh(&self.pipeline);
+            (self.world, self.schedule) = fresh(&self.pipeline, &self.progress);
         }
         self.rows = rows;
 
@@ -85,6 +109,7 @@ impl Worker {
             failed_in: None,
         };
         self.world.insert_resource(clock);
+        self.progress.set(0);
 
         let (world, schedule) = (&mut self.world, &mut self.schedule);
         match &self.pool {
@@ -129,8 +154,9 @@ impl Worker {
     }
 }
 
-fn fresh(pipeline: &Pipeline) -> (World, Schedule) {
+fn fresh(pipeline: &Pipeline, progress: &Progress) -> (World, Schedule) {
     let mut world = World::new();
+    world.insert_resource(progress.clone());
     world.init_resource::<MeshTopology>();
     world.init_resource::<Counts>();
 
@@ -138,8 +164,11 @@ fn fresh(pipeline: &Pipeline) -> (World, Schedule) {
     schedule.set_executor(SingleThreadedExecutor::new());
     for stage in Stage::ALL {
         schedule.configure_sets(stage.run_if(|failure: Res<JobFailure>| failure.0.is_none()));
-        let note = move |mut clock: ResMut<StageClock>, failure: Res<JobFailure>| {
+        let note = move |mut clock: ResMut<StageClock>,
+                         failure: Res<JobFailure>,
+                         progress: Res<Progress>| {
             let now = Instant::now();
+            progress.set(stage as usize + 1);
             clock.seconds[stage as usize] = (now - clock.last).as_secs_f64();
             clock.last = now;
             if failure.0.is_some() {

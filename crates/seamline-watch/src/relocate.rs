@@ -10,6 +10,7 @@ use rustix::io::Errno;
 
 use crate::fitted::fitted;
 use crate::outputs::{TEMPORARY_END, TEMPORARY_START, hold};
+use crate::tracker::Stamp;
 
 /// How many names are tried before it is taken for a mistake.
 const MOST_NAMES: u32 = 10_000;
@@ -89,7 +90,8 @@ pub(crate) fn rename_new(from: &Path, to: &Path) -> io::Result<()> {
 
 fn copy_then_delete(source: &Path, place: &Path) -> io::Result<()> {
     let folder = place.parent().unwrap_or(Path::new("."));
-    let modified = fs::metadata(source)?.modified()?;
+    let before = fs::metadata(source)?;
+    let modified = before.modified()?;
     let mut copy = tempfile::Builder::new()
         .prefix(TEMPORARY_START)
         .suffix(TEMPORARY_END)
@@ -99,6 +101,9 @@ fn copy_then_delete(source: &Path, place: &Path) -> io::Result<()> {
     fs::set_permissions(copy.path(), fs::metadata(source)?.permissions())?;
     copy.as_file().set_modified(modified)?;
     copy.as_file().sync_all()?;
+    if Stamp::of(&fs::metadata(source)?) != Stamp::of(&before) {
+        return Err(io::Error::other("it changed while it was copied"));
+    }
     copy.persist_noclobber(place).map_err(|error| error.error)?;
     sync_folder(folder)?;
     fs::remove_file(source)

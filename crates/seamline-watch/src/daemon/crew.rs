@@ -17,6 +17,7 @@ use std::thread::{Builder, JoinHandle};
 use std::time::{Duration, Instant};
 
 use crossbeam_channel::{Receiver, Sender, bounded, unbounded};
+use seamline_ecs::Progress;
 
 use super::job::{Cut, Failure, Job, Loaded, Outcome, Remedy, Settle};
 use crate::health::Health;
@@ -33,10 +34,19 @@ pub(super) struct Shared {
     /// Who works on which bytes, by their hash and that of the settings.
     pub claims: Mutex<HashMap<(String, String), JobId>>,
     /// The meshes that are being cut, the hashes of their files, and since when.
-    cutting: Mutex<HashMap<JobId, (Job, String, Instant)>>,
+    cutting: Mutex<HashMap<JobId, Cutting>>,
     /// Cutters that were given up and have not come back.
     abandoned: AtomicUsize,
     stopping: AtomicBool,
+}
+
+/// A mesh that is being cut.
+struct Cutting {
+    job: Job,
+    /// BLAKE3 of the file.
+    content: String,
+    since: Instant,
+    progress: Progress,
 }
 
 impl Shared {
@@ -197,9 +207,9 @@ impl Crew {
                 .cutting
                 .lock()
                 .unwrap_or_else(PoisonError::into_inner);
-            let is_overdue = |(job, _, since): &(Job, String, Instant)| {
-                let limit = job.setup.config.limits.job_timeout_s;
-                limit > 0 && now.saturating_duration_since(*since) >= Duration::from_secs(limit)
+            let is_overdue = |cut: &Cutting| {
+                let limit = cut.job.setup.config.limits.job_timeout_s;
+                limit > 0 && now.saturating_duration_since(cut.since) >= Duration::from_secs(limit)
             };
             let ids: Vec<_> = cutting
                 .iter()
@@ -209,12 +219,18 @@ impl Crew {
             ids.iter().filter_map(|id| cutting.remove(id)).collect()
         };
         let mut failed = Vec::new();
-        for (job, content, _) in overdue {
+        for Cutting {
+            job,
+            content,
+            progress,
+            ..
+        } in overdue
+        {
             self.shared.abandoned.fetch_add(1, Ordering::Relaxed);
             self.start_cutter()?;
             let limit = job.setup.config.limits.job_timeout_s;
             let fault = Fault {
-                stage: "pipeline".to_owned(),
+                stage: progress.stage().name().to_owned(),
                 message: format!("was not cut within {limit} s"),
                 hint: "raise `limits.job_timeout_s`, or try another classifier or rectifier"
                     .to_owned(),

@@ -379,6 +379,18 @@ fn a_file_that_was_put_back_to_an_earlier_content_is_cut_again() {
 }
 
 #[test]
+fn a_file_that_comes_again_after_its_results_were_taken_away_is_cut_again() {
+    let home = Home::new();
+    home.drop("part.obj", 2);
+    assert_eq!(home.once(""), summary(1, 0));
+    fs::remove_dir_all(home.at("out/part.obj.seamline")).unwrap();
+    assert_eq!(home.once(""), summary(0, 0));
+    home.drop("part.obj", 2);
+    assert_eq!(home.once(""), summary(1, 0));
+    assert!(home.has_result("part.obj"));
+}
+
+#[test]
 fn other_settings_are_other_work() {
     let home = Home::new();
     home.drop("part.obj", 2);

@@ -17,6 +17,8 @@ pub enum Known {
         holder: JobId,
         /// Of this file.
         path: PathBuf,
+        /// The folder of the results, unless somebody has taken it away.
+        result: PathBuf,
     },
     /// They are at fault.
     Bad(Fault),
@@ -42,7 +44,7 @@ impl Reader {
     /// What is known of bytes by their hash, under settings by theirs; nothing if they are to be cut.
     pub fn known(&self, content: &str, settings: &str) -> Result<Option<Known>, LedgerError> {
         let mut known = self.connection.prepare_cached(
-            "SELECT state, id, path, stage, message, hint FROM jobs \
+            "SELECT state, id, path, result, stage, message, hint FROM jobs \
              WHERE content = ?1 AND settings = ?2 AND (state = 'done' AND result IS NOT NULL \
              OR state = 'quarantined' AND of_content) ORDER BY state, id LIMIT 1",
         )?;
@@ -51,11 +53,12 @@ impl Reader {
                 JobState::Done => Known::Done {
                     holder: JobId(row.get(1)?),
                     path: row::path(row, 2)?,
+                    result: row::path(row, 3)?,
                 },
                 _ => Known::Bad(Fault {
-                    stage: row.get(3)?,
-                    message: row.get(4)?,
-                    hint: row.get(5)?,
+                    stage: row.get(4)?,
+                    message: row.get(5)?,
+                    hint: row.get(6)?,
                     of_content: true,
                 }),
             })

@@ -141,9 +141,16 @@ fn done_work_is_done_again_under_other_settings_only() {
 fn bytes_that_were_cut_are_known_under_the_same_settings_only() {
     let mut home = Home::new();
     let (holder, _) = home.done("a", "1", "c1");
-    let path = PathBuf::from("a");
+    let [path, result] = ["a", "out/a"].map(PathBuf::from);
     let known = |settings| home.reader().known("c1", settings).unwrap();
-    assert_eq!(known(SETTINGS), Some(Known::Done { holder, path }));
+    assert_eq!(
+        known(SETTINGS),
+        Some(Known::Done {
+            holder,
+            path,
+            result
+        })
+    );
     assert_eq!(known("s2"), None);
     assert_eq!(home.reader().known("c2", SETTINGS).unwrap(), None);
 }

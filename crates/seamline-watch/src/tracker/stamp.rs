@@ -28,6 +28,14 @@ impl Stamp {
         }
     }
 
+    /// Is this the same content as `other`, moved or copied by somebody who keeps the time it was written?
+    pub fn is_moved(&self, other: &Self) -> bool {
+        let same_device = self.identity.0 == other.identity.0;
+        self.size == other.size
+            && self.modified == other.modified
+            && (!same_device || self.identity == other.identity)
+    }
+
     /// The stamp as a word. Without the device, whose number may be another after the next start.
     pub fn word(&self) -> String {
         let (m, m_ns) = self.modified;

@@ -7,10 +7,10 @@ use std::time::{Duration, Instant};
 
 use crossbeam_channel::{Receiver, RecvTimeoutError, Sender};
 use rayon::{ThreadPool, ThreadPoolBuilder};
-use seamline_ecs::{Pipeline, Segmentation, Worker};
+use seamline_ecs::{Pipeline, Progress, Segmentation, Worker};
 
-use super::Shared;
 use super::guard::guarded;
+use super::{Cutting, Shared};
 use crate::daemon::job::{Cut, Failure, Job, Loaded, Outcome, Remedy};
 use crate::ledger::Fault;
 use crate::load::LoadedMesh;
@@ -30,13 +30,13 @@ struct Kept {
 }
 
 impl Kept {
-    fn new(pipeline: &Arc<Pipeline>) -> Self {
+    fn new(pipeline: &Arc<Pipeline>, progress: &Progress) -> Self {
         // Without a pool the worker has the threads of the whole program: results are the same.
         let pool = ThreadPoolBuilder::new()
             .num_threads(pipeline.threads())
             .build()
             .ok();
-        let new = || Worker::new(pipeline.clone());
+        let new = || Worker::with_progress(pipeline.clone(), progress.clone());
         Self {
             worker: pool.as_ref().map_or_else(new, |pool| pool.install(new)),
             pipeline: pipeline.clone(),
@@ -62,6 +62,7 @@ pub(super) fn cut_all(
     outcome: &Sender<Outcome>,
 ) {
     let mut kept: Option<Kept> = None;
+    let progress = Progress::default();
     while let Some(Loaded { job, mesh, pass }) = next(shared, to_cut, &mut kept) {
         if shared.is_stopping() {
             drop((mesh, pass));
@@ -72,8 +73,8 @@ pub(super) fn cut_all(
         }
         let said = job.span.clone();
         let _said = said.enter();
-        begin(shared, &job, &mesh.hash);
-        let result = cut_one(&mut kept, &job, &mesh);
+        begin(shared, &job, &mesh.hash, &progress);
+        let result = cut_one(&mut kept, &progress, &job, &mesh);
         if !end(shared, &job) {
             // This job was given up, and another cutter has this one's place.
             shared.abandoned.fetch_sub(1, Ordering::Relaxed);
@@ -140,13 +141,20 @@ fn keep_if_there_is_room(shared: &Shared, kept: &mut Option<Kept>, job: &Job, me
     }
 }
 
-fn cut_one(kept: &mut Option<Kept>, job: &Job, mesh: &LoadedMesh) -> Result<Segmentation, Failure> {
+fn cut_one(
+    kept: &mut Option<Kept>,
+    progress: &Progress,
+    job: &Job,
+    mesh: &LoadedMesh,
+) -> Result<Segmentation, Failure> {
     let pipeline = &job.setup.pipeline;
     let mut at_work = kept
         .take()
         .filter(|kept| Arc::ptr_eq(&kept.pipeline, pipeline));
     let result = guarded("pipeline", || {
-        at_work.get_or_insert_with(|| Kept::new(pipeline)).cut(mesh)
+        at_work
+            .get_or_insert_with(|| Kept::new(pipeline, progress))
+            .cut(mesh)
     });
     match result {
         Ok(cut) => {
@@ -162,7 +170,8 @@ fn cut_one(kept: &mut Option<Kept>, job: &Job, mesh: &LoadedMesh) -> Result<Segm
                 remedy: Remedy::None,
             })
         }
-        Err(panicked) => {
+        Err(mut panicked) => {
+            panicked.fault.stage = progress.stage().name().to_owned();
             // Its world may be half changed: the next mesh gets a new one.
             let _ = catch_unwind(AssertUnwindSafe(|| drop(at_work)));
             Err(panicked)
@@ -170,13 +179,18 @@ fn cut_one(kept: &mut Option<Kept>, job: &Job, mesh: &LoadedMesh) -> Result<Segm
     }
 }
 
-fn begin(shared: &Shared, job: &Job, content: &str) {
+fn begin(shared: &Shared, job: &Job, content: &str, progress: &Progress) {
     let mut cutting = shared
         .cutting
         .lock()
         .unwrap_or_else(PoisonError::into_inner);
-    let content = content.to_owned();
-    cutting.insert(job.file.id, (job.clone(), content, Instant::now()));
+    let under_way = Cutting {
+        job: job.clone(),
+        content: content.to_owned(),
+        since: Instant::now(),
+        progress: progress.clone(),
+    };
+    cutting.insert(job.file.id, under_way);
 }
 
 /// False if the job was given up meanwhile.

@@ -62,7 +62,12 @@ fn read(shared: &Shared, ledger: &Reader, job: Job) -> Result<Box<Loaded>, Box<O
         return instead(Outcome::Behind { job, other });
     }
     match ledger.known(&bytes.hash, &job.setup.settings_hash) {
-        Ok(Some(Known::Done { holder, path })) if holder != job.file.id => {
+        // Who drops a file whose results were taken away wants them again.
+        Ok(Some(Known::Done {
+            holder,
+            path,
+            result,
+        })) if holder != job.file.id && result.is_dir() => {
             let content = bytes.hash;
             return instead(Outcome::Same {
                 job,

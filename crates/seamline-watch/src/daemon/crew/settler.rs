@@ -3,7 +3,7 @@
 
 use std::fs;
 use std::io;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use crossbeam_channel::{Receiver, Sender};
 
@@ -11,7 +11,8 @@ use super::Shared;
 use crate::VERSION;
 use crate::config::After;
 use crate::daemon::job::{Failure, Job, Outcome, Settle};
-use crate::quarantine::{Reason, put_aside};
+use crate::outputs::{TEMPORARY_END, TEMPORARY_START};
+use crate::quarantine::{Reason, put_aside, reason_beside};
 use crate::relocate::move_aside;
 use crate::tracker::Stamp;
 
@@ -27,26 +28,38 @@ pub(super) fn settle_all(shared: &Shared, to_settle: &Receiver<Settle>, outcome:
 }
 
 fn settle(job: &Job, failure: Option<&Failure>) -> io::Result<Option<PathBuf>> {
-    if !is_unchanged(job) {
+    if !is_ours(job, &job.file.path) {
         return Ok(None);
     }
     let path = &job.file.path;
-    match failure {
-        Some(failure) => quarantine(job, failure).map(Some),
-        None => match job.after {
-            After::Keep => Ok(None),
-            After::Move => {
-                move_aside(path, &job.setup.config.done.join(&job.file.relative)).map(Some)
-            }
-            After::Delete => fs::remove_file(path).map(|()| Some(PathBuf::new())),
-        },
+    let place = match (failure, job.after) {
+        (Some(failure), _) => quarantine(job, failure)?,
+        (None, After::Keep) => return Ok(None),
+        (None, After::Move) => move_aside(path, &job.setup.config.done.join(&job.file.relative))?,
+        // By way of another name, so that what is deleted is what was looked at.
+        (None, After::Delete) => {
+            let name = format!("{TEMPORARY_START}{}{TEMPORARY_END}", job.file.id.0);
+            move_aside(path, &path.with_file_name(name))?
+        }
+    };
+    if !is_ours(job, &place) {
+        // Something new came between the look and the move: it goes back, and is a job of its own.
+        move_aside(&place, path)?;
+        if failure.is_some() {
+            fs::remove_file(reason_beside(&place))?;
+        }
+        return Ok(None);
     }
+    if failure.is_none() && job.after == After::Delete {
+        return fs::remove_file(&place).map(|()| Some(PathBuf::new()));
+    }
+    Ok(Some(place))
 }
 
-/// Does the path still lead to what was read? If not, something new came in its place, which is a job of its
-/// own and must not be moved or deleted with the old.
-fn is_unchanged(job: &Job) -> bool {
-    fs::metadata(&job.file.path).is_ok_and(|found| Stamp::of(&found) == job.file.stamp)
+/// Is this what was read? If not, something new came in its place, which is a job of its own and must not be
+/// moved or deleted with the old.
+fn is_ours(job: &Job, path: &Path) -> bool {
+    fs::metadata(path).is_ok_and(|found| job.file.stamp.is_moved(&Stamp::of(&found)))
 }
 
 fn quarantine(job: &Job, failure: &Failure) -> io::Result<PathBuf> {

@@ -102,6 +102,9 @@ pub enum WatchError {
     /// The threads ended by themselves.
     #[error("the threads that read, cut and write have ended unexpectedly")]
     CrewLost,
+    /// The state folder was deleted or replaced while it was in use.
+    #[error("the state folder {} was taken away", .0.display())]
+    StateGone(PathBuf),
     /// So many meshes hang that going on is of no use.
     #[error("{0} meshes hang in the pipeline")]
     Hanging(usize),
@@ -118,6 +121,9 @@ impl WatchError {
             Self::Threads(_) => "set fewer `daemon.workers`, or raise the limit of processes",
             Self::CrewLost => {
                 "this is a mistake in the program: please report what was said before"
+            }
+            Self::StateGone(_) => {
+                "start again; without its ledger everything in the watched folders is cut anew"
             }
             Self::Hanging(_) => {
                 "start again; `seamline status` tells which files were given up, choose another plugin for them"
@@ -150,7 +156,7 @@ pub fn run(
     }
     let config = &setup.config;
     make_folders(config)?;
-    let _lock = InstanceLock::take(&config.state)?;
+    let lock = InstanceLock::take(&config.state)?;
     let ledger = open_ledger(config)?;
     sweep(config);
 
@@ -187,6 +193,7 @@ pub fn run(
         metrics,
         options,
         orders,
+        lock,
     };
     let ended = books.keep();
     service::stopping();

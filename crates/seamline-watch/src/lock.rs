@@ -4,8 +4,9 @@
 //! that ends. The file holds the number of the process and stays when it ends; without the lock it means
 //! nothing.
 
-use std::fs::{self, File, OpenOptions, TryLockError};
+use std::fs::{self, File, Metadata, OpenOptions, TryLockError};
 use std::io::{self, Seek, Write};
+use std::os::unix::fs::MetadataExt;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
@@ -16,7 +17,8 @@ const BETWEEN_TRIES: Duration = Duration::from_millis(10);
 /// The right to work with a state folder, until it is dropped or the process ends.
 #[derive(Debug)]
 pub struct InstanceLock {
-    _file: File,
+    file: File,
+    path: PathBuf,
 }
 
 /// Why the lock was not given. `Display` is one line.
@@ -63,7 +65,7 @@ impl InstanceLock {
     pub fn take(state_folder: &Path) -> Result<Self, LockError> {
         let path = place(state_folder);
         let refused = |error| LockError::Io {
-            path: path.clone(),
+            path: place(state_folder),
             error,
         };
         fs::create_dir_all(state_folder).map_err(refused)?;
@@ -79,7 +81,7 @@ impl InstanceLock {
             match file.try_lock() {
                 Ok(()) => {
                     sign(&mut file).map_err(refused)?;
-                    return Ok(Self { _file: file });
+                    return Ok(Self { file, path });
                 }
                 Err(TryLockError::WouldBlock) => std::thread::sleep(BETWEEN_TRIES),
                 Err(TryLockError::Error(error)) => return Err(refused(error)),
@@ -89,6 +91,14 @@ impl InstanceLock {
             pid: signed(&path),
             state: state_folder.to_owned(),
         })
+    }
+
+    /// Is the lock still the one that others would find? Not if the state folder was deleted or replaced: then
+    /// others may work there, and what is written is lost.
+    pub fn is_in_place(&self) -> bool {
+        let identity = |found: Metadata| (found.dev(), found.ino());
+        let held = self.file.metadata().map(identity).ok();
+        held.is_some() && held == fs::metadata(&self.path).map(identity).ok()
     }
 }
 

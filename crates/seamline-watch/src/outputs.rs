@@ -156,7 +156,7 @@ impl OutputError {
         matches!(self, Self::Io { error, .. } if is_full_disk(error))
     }
 
-    fn io(path: &Path) -> impl FnOnce(io::Error) -> Self {
+    pub(crate) fn io(path: &Path) -> impl FnOnce(io::Error) -> Self {
         move |error| Self::Io {
             path: path.to_owned(),
             error,

@@ -10,6 +10,7 @@ use std::io;
 use std::path::{Component, Path, PathBuf};
 
 use crate::include::{Patterns, is_finished_name};
+use crate::outputs::FOLDER_SUFFIX;
 use crate::tracker::{FileFact, Stamp};
 
 /// What one look found.
@@ -58,12 +59,13 @@ impl Search<'_> {
             return;
         };
         let finished = |part| matches!(part, Component::Normal(name) if is_finished_name(name));
-        if relative.as_os_str().is_empty() || !relative.components().all(finished) {
+        let in_results = relative.ancestors().skip(1).any(is_result);
+        if in_results || relative.as_os_str().is_empty() || !relative.components().all(finished) {
             return;
         }
         match fs::symlink_metadata(path) {
             Ok(found) if found.is_dir() => {
-                if self.recursive {
+                if self.recursive && !is_result(path) {
                     self.descend(vec![path.to_owned()], listing);
                 }
             }
@@ -103,7 +105,7 @@ impl Search<'_> {
             }
             if !entry.file_type().is_ok_and(|kind| kind.is_dir()) {
                 self.look_at_file(&entry.path(), listing);
-            } else if self.recursive {
+            } else if self.recursive && !is_result(&entry.path()) {
                 below.push(entry.path());
             }
         }
@@ -122,6 +124,13 @@ impl Search<'_> {
             Err(error) => listing.unreadable.push((path.to_owned(), error)),
         }
     }
+}
+
+/// A folder of results, copied into the inbox with the part: what is in it is not input, and its own results would
+/// have to lie inside those of the part.
+fn is_result(folder: &Path) -> bool {
+    let name = folder.file_name().unwrap_or_default();
+    name.as_encoded_bytes().ends_with(FOLDER_SUFFIX.as_bytes())
 }
 
 fn fact(path: &Path, metadata: &Metadata) -> Option<FileFact> {

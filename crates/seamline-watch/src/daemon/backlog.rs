@@ -1,8 +1,8 @@
-//! The jobs that wait, and which of them may run: one path is never worked on twice at the same time, and
-//! neither are the same bytes.
+//! The jobs that wait, and which of them may run: the results of one place are never worked on twice at the same
+//! time, and neither are the same bytes.
 
-use std::collections::{BTreeMap, HashMap};
-use std::path::{Path, PathBuf};
+use std::collections::{BTreeMap, HashMap, HashSet};
+use std::path::PathBuf;
 use std::time::Instant;
 
 use super::job::Waiting;
@@ -13,6 +13,7 @@ use crate::ledger::JobId;
 pub(super) struct Backlog {
     waiting: BTreeMap<u64, Waiting>,
     by_path: HashMap<PathBuf, u64>,
+    /// By their path below the watched folder, which is that of their results.
     running: HashMap<PathBuf, JobId>,
     /// Those that wait for a running job that works on the same bytes.
     behind: HashMap<JobId, Vec<Waiting>>,
@@ -24,6 +25,9 @@ pub(super) struct Backlog {
 impl Backlog {
     /// Takes a job in. A waiting one for the same path is replaced: only the latest content counts.
     pub(super) fn add(&mut self, job: Waiting) {
+        for behind in self.behind.values_mut() {
+            behind.retain(|other| other.path != job.path);
+        }
         if let Some(at) = self.by_path.get(&job.path) {
             self.waiting.insert(*at, job);
             return;
@@ -42,15 +46,15 @@ impl Backlog {
         }
     }
 
-    /// Gives the first job that is due and whose path is not being worked on, and counts it as running. Were
-    /// two runs on one path under way, the results of the older content might be written last. A suspect waits
+    /// Gives the first job that is due and whose place is not being worked on, and counts it as running. Were
+    /// two runs for one place under way, the results of the older content might be written last. A suspect waits
     /// until nothing runs, and everybody else until the suspect has ended.
     pub(super) fn next(&mut self, now: Instant) -> Option<Waiting> {
         if self.suspect_runs.is_some() {
             return None;
         }
         let may_run = |job: &Waiting| {
-            job.not_before.is_none_or(|due| due <= now) && !self.running.contains_key(&job.path)
+            job.not_before.is_none_or(|due| due <= now) && !self.running.contains_key(&job.relative)
         };
         let (&at, first) = self.waiting.iter().find(|(_, job)| may_run(job))?;
         if first.suspicion > 0 && !self.running.is_empty() {
@@ -59,27 +63,29 @@ impl Backlog {
         self.suspect_runs = (first.suspicion > 0).then_some(first.id);
         let job = self.waiting.remove(&at)?;
         self.by_path.remove(&job.path);
-        self.running.insert(job.path.clone(), job.id);
+        self.running.insert(job.relative.clone(), job.id);
         Some(job)
     }
 
-    /// Counts a job as running that never waited. False if its path is being worked on.
+    /// Counts a job as running that never waited. False if its place is being worked on.
     pub(super) fn start(&mut self, job: &Waiting) -> bool {
-        let free = !self.running.contains_key(&job.path);
+        let free = !self.running.contains_key(&job.relative);
         if free {
-            self.running.insert(job.path.clone(), job.id);
+            self.running.insert(job.relative.clone(), job.id);
         }
         free
     }
 
-    /// The job on this path has ended; who waited for it waits no longer.
-    pub(super) fn ended(&mut self, path: &Path) {
-        let Some(id) = self.running.remove(path) else {
+    /// The job has ended; who waited for it waits no longer.
+    pub(super) fn ended(&mut self, job: &Waiting) {
+        let Some(id) = self.running.remove(&job.relative) else {
             return;
         };
         self.suspect_runs = self.suspect_runs.filter(|suspect| *suspect != id);
         for job in self.behind.remove(&id).unwrap_or_default() {
-            self.add(job);
+            if !self.by_path.contains_key(&job.path) {
+                self.add(job);
+            }
         }
     }
 
@@ -92,11 +98,16 @@ impl Backlog {
     pub(super) fn retain(&mut self, stay: impl Fn(&Waiting) -> bool) {
         self.waiting.retain(|_, job| stay(job));
         self.by_path.retain(|_, at| self.waiting.contains_key(at));
+        for behind in self.behind.values_mut() {
+            behind.retain(|job| stay(job));
+        }
     }
 
-    /// Is the job waiting or running?
-    pub(super) fn has(&self, path: &Path) -> bool {
-        self.by_path.contains_key(path) || self.running.contains_key(path)
+    /// All jobs that wait or run.
+    pub(super) fn ids(&self) -> HashSet<JobId> {
+        let behind = self.behind.values().flatten();
+        let waiting = self.waiting.values().chain(behind).map(|job| job.id);
+        waiting.chain(self.running()).collect()
     }
 
     /// The jobs that run.
@@ -158,7 +169,7 @@ mod tests {
         backlog.add(job("a", 2));
         backlog.add(job("b", 3));
         assert_eq!([next(&mut backlog), next(&mut backlog)], [Some(3), None]);
-        backlog.ended(Path::new("a"));
+        backlog.ended(&job("a", 1));
         assert_eq!(next(&mut backlog), Some(2));
     }
 
@@ -170,6 +181,33 @@ mod tests {
         backlog.add(job("a", 3));
         assert_eq!([next(&mut backlog), next(&mut backlog)], [Some(3), Some(2)]);
         assert_eq!(backlog.waiting(), 0);
+    }
+
+    #[test]
+    fn newer_content_takes_the_place_of_what_waits_behind_another() {
+        let mut backlog = Backlog::default();
+        backlog.add(job("a", 1));
+        next(&mut backlog);
+        backlog.add_behind(job("b", 2), JobId(1));
+        backlog.add(job("b", 3));
+        assert_eq!(next(&mut backlog), Some(3));
+        backlog.ended(&job("a", 1));
+        backlog.ended(&job("b", 3));
+        assert_eq!((next(&mut backlog), backlog.ids().len()), (None, 0));
+    }
+
+    #[test]
+    fn two_folders_with_one_name_are_worked_on_one_after_the_other() {
+        let mut backlog = Backlog::default();
+        let in_folder = |folder: &str, id| Waiting {
+            path: format!("{folder}/a").into(),
+            ..job("a", id)
+        };
+        backlog.add(in_folder("one", 1));
+        backlog.add(in_folder("two", 2));
+        assert_eq!([next(&mut backlog), next(&mut backlog)], [Some(1), None]);
+        backlog.ended(&in_folder("one", 1));
+        assert_eq!(next(&mut backlog), Some(2));
     }
 
     #[test]
@@ -197,9 +235,9 @@ mod tests {
         backlog.add(suspect("b", 2));
         backlog.add(job("c", 3));
         assert_eq!([next(&mut backlog), next(&mut backlog)], [Some(1), None]);
-        backlog.ended(Path::new("a"));
+        backlog.ended(&job("a", 1));
         assert_eq!([next(&mut backlog), next(&mut backlog)], [Some(2), None]);
-        backlog.ended(Path::new("b"));
+        backlog.ended(&job("b", 2));
         assert_eq!(next(&mut backlog), Some(3));
     }
 
@@ -210,7 +248,7 @@ mod tests {
         next(&mut backlog);
         backlog.add_behind(job("b", 2), JobId(1));
         assert_eq!((next(&mut backlog), backlog.waiting()), (None, 1));
-        backlog.ended(Path::new("a"));
+        backlog.ended(&job("a", 1));
         assert_eq!(next(&mut backlog), Some(2));
         backlog.add_behind(job("c", 3), JobId(1));
         assert_eq!(next(&mut backlog), Some(3));

@@ -5,7 +5,7 @@ mod enter;
 mod obey;
 mod tell;
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::thread::sleep;
 use std::time::{Duration, Instant};
@@ -22,6 +22,7 @@ use crate::config::{Config, Watched};
 use crate::events::Events;
 use crate::health::{Health, Trouble};
 use crate::ledger::{Ledger, LedgerError};
+use crate::lock::InstanceLock;
 use crate::metrics::Metrics;
 use crate::setup::Setup;
 use crate::{service, shown};
@@ -49,6 +50,7 @@ pub(super) struct Books {
     pub metrics: Arc<Metrics>,
     pub options: RunOptions,
     pub orders: Receiver<Order>,
+    pub lock: InstanceLock,
 }
 
 /// The books while they are kept.
@@ -61,6 +63,10 @@ struct Open {
     beaten_at: Option<Instant>,
     reconciled_at: Option<Instant>,
     first_look_done: bool,
+    /// Sources that could not be moved, and when to try again.
+    to_settle: Vec<(Instant, PathBuf)>,
+    /// Asked for while the ledger could not be written.
+    reload_asked: bool,
 }
 
 impl Books {
@@ -74,6 +80,8 @@ impl Books {
             beaten_at: None,
             reconciled_at: None,
             first_look_done: false,
+            to_settle: Vec::new(),
+            reload_asked: false,
         };
         let kept = open.keep();
         // On an error too: nothing new is begun, and threads that still live are let go.
@@ -155,6 +163,9 @@ impl Open {
         }
         self.beaten_at = Some(now);
         service::alive();
+        if !self.with.lock.is_in_place() {
+            return Err(WatchError::StateGone(self.with.setup.config.state.clone()));
+        }
         for (job, failure) in self
             .with
             .crew
@@ -167,15 +178,24 @@ impl Open {
         if hanging >= MOST_HANGING {
             return Err(WatchError::Hanging(hanging));
         }
-        if self.with.reload.as_mut().is_some_and(Reload::is_due) {
+        let changed = self.with.reload.as_mut().is_some_and(Reload::is_due);
+        if std::mem::take(&mut self.reload_asked) || changed {
             self.reload();
         }
         if self.record(|ledger| ledger.changed_elsewhere())? {
-            for (_, path) in self.record(|ledger| ledger.pending())? {
-                if !self.backlog.has(&path) {
+            let known = self.backlog.ids();
+            for (id, path) in self.record(|ledger| ledger.pending())? {
+                if !known.contains(&id) {
                     self.with.lookout.look_again(&path);
                 }
             }
+        }
+        let (due, later) = std::mem::take(&mut self.to_settle)
+            .into_iter()
+            .partition::<Vec<_>, _>(|(at, _)| *at <= now);
+        self.to_settle = later;
+        for (_, path) in due {
+            self.with.lookout.look_again(&path);
         }
         self.tell()
     }
@@ -210,14 +230,14 @@ impl Open {
             let id = file.id;
             let settings = self.with.setup.settings_hash.clone();
             let attempts = self.record(|ledger| ledger.begin(id, &settings))?;
-            let path = file.path.clone();
+            let waited = file.clone();
             if let Some(job) = self.job(file, attempts) {
                 if !self.with.crew.hand_over(job) {
                     return Err(WatchError::CrewLost);
                 }
             } else {
                 self.record(|ledger| ledger.put_back(id))?;
-                self.backlog.ended(&path);
+                self.backlog.ended(&waited);
             }
         }
         Ok(())
@@ -260,10 +280,13 @@ impl Open {
                         self.with.health.raise(trouble(), &error.to_string());
                     }
                     self.with.health.beat();
-                    if let Ok(Order::Stop) | Err(TryRecvError::Disconnected) =
-                        self.with.orders.try_recv()
-                    {
-                        return Err(error.into());
+                    service::alive();
+                    match self.with.orders.try_recv() {
+                        Ok(Order::Stop) | Err(TryRecvError::Disconnected) => {
+                            return Err(error.into());
+                        }
+                        Ok(Order::Reload) => self.reload_asked = true,
+                        Err(TryRecvError::Empty) => {}
                     }
                     sleep(LEDGER_EVERY);
                 }

@@ -30,6 +30,14 @@ pub enum RequeueError {
         /// `pending` or `running`.
         state: &'static str,
     },
+    /// Another file has come under the same name since.
+    #[error("the file of job {id} was followed by another of the same name, in job {later}")]
+    Followed {
+        /// Its number.
+        id: i64,
+        /// The number of the last job of that name.
+        later: i64,
+    },
     /// Its file is not where it was put.
     #[error("the file of job {id} cannot be brought back from {}: {error}", .from.display())]
     File {
@@ -49,6 +57,7 @@ impl RequeueError {
             Self::Ledger(error) => error.hint(),
             Self::Unknown(_) => "`seamline status` tells the numbers of all jobs",
             Self::Under { .. } => "wait for its end",
+            Self::Followed { .. } => "drop it into the watched folder under another name",
             Self::File { .. } => "drop the file into the watched folder again",
         }
     }
@@ -77,10 +86,12 @@ pub fn requeue(
         .collect())
 }
 
-/// Of each path the last job, if it is in quarantine and has not been put back since.
+/// Of each path the last job, if it is in quarantine.
 fn quarantined(connection: &Connection) -> Result<Vec<JobId>, LedgerError> {
-    let mut all =
-        connection.prepare("SELECT id FROM jobs WHERE state = 'quarantined' ORDER BY id")?;
+    let mut all = connection.prepare(
+        "SELECT id FROM jobs AS a WHERE state = 'quarantined' AND NOT EXISTS \
+             (SELECT 1 FROM jobs AS b WHERE b.path = a.path AND b.id > a.id) ORDER BY id",
+    )?;
     let ids = all.query_map([], |row| row.get(0).map(JobId))?;
     Ok(ids.collect::<Result<_, _>>()?)
 }
@@ -97,6 +108,16 @@ fn one(connection: &Connection, id: JobId) -> Result<PathBuf, RequeueError> {
             id: id.0,
             state: state.word(),
         });
+    }
+    let later: Option<i64> = connection
+        .query_row(
+            "SELECT max(id) FROM jobs WHERE path = ?1 AND id > ?2",
+            params![row.path.as_os_str().as_bytes(), id.0],
+            |row| row.get(0),
+        )
+        .map_err(LedgerError::from)?;
+    if let Some(later) = later {
+        return Err(RequeueError::Followed { id: id.0, later });
     }
     let (path, stamp) = bring_back(&row).map_err(|error| RequeueError::File {
         id: id.0,

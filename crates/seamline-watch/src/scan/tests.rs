@@ -112,6 +112,17 @@ fn a_root_that_is_gone_is_an_error_and_not_an_empty_folder() {
 }
 
 #[test]
+fn folders_of_results_are_not_input() {
+    let home = folder();
+    fs::create_dir(home.path().join("one.stl.seamline")).unwrap();
+    fs::write(home.path().join("one.stl.seamline/patches.obj"), "x").unwrap();
+    assert_eq!(names(home.path(), true).len(), 3);
+    for path in ["one.stl.seamline", "one.stl.seamline/patches.obj"] {
+        assert_eq!(names_at(home.path(), true, path), (vec![], false));
+    }
+}
+
+#[test]
 fn what_is_excluded_is_not_taken_whatever_is_included() {
     let home = folder();
     fs::write(home.path().join("one_old.stl"), "x").unwrap();

@@ -85,8 +85,9 @@ impl Open {
     /// Files that went away while they waited for more of themselves, or while nobody watched.
     pub(super) fn reconcile(&mut self) -> Result<(), WatchError> {
         self.reconciled_at = Some(Instant::now());
+        let known = self.backlog.ids();
         for (id, path) in self.record(|ledger| ledger.pending())? {
-            if !self.backlog.has(&path) && self.with.lookout.is_missing(&path) {
+            if !known.contains(&id) && self.with.lookout.is_missing(&path) {
                 info!("{}: gone before it was read", shown(&path));
                 self.record(|ledger| ledger.gone(id))?;
             }

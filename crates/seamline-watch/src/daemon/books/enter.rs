@@ -12,6 +12,9 @@ use crate::metrics::OutcomeKind;
 use crate::retry::back_off;
 use crate::shown;
 
+/// A source that could not be moved is tried again after this long.
+const SETTLE_AGAIN_AFTER: Duration = Duration::from_secs(15);
+
 impl Open {
     pub(super) fn enter(&mut self, outcome: Outcome) -> Result<(), WatchError> {
         let span = outcome.job().span.clone();
@@ -53,7 +56,7 @@ impl Open {
             }
             Outcome::Behind { job, other } => {
                 self.record(|ledger| ledger.put_back(id))?;
-                self.backlog.ended(&job.file.path);
+                self.backlog.ended(&job.file);
                 self.backlog.add_behind(job.file, other);
                 Ok(())
             }
@@ -71,6 +74,8 @@ impl Open {
                 self.record(|ledger| ledger.gone(id))?;
                 self.with.metrics.job_ended(OutcomeKind::Gone);
                 info!("gone before it was read");
+                // Should it be back by now, or come back as it was, it is a new arrival.
+                self.with.lookout.take_back(&job.file.path, job.file.stamp);
                 self.end(&job);
                 Ok(())
             }
@@ -89,9 +94,13 @@ impl Open {
                         }
                     }
                     Ok(None) => {}
-                    Err(error) => warn!(
-                        "the file stays where it is: {error}; check that its folder may be written"
-                    ),
+                    Err(error) => {
+                        warn!(
+                            "the file stays where it is: {error}; check that its folder may be written"
+                        );
+                        let again = Instant::now() + SETTLE_AGAIN_AFTER;
+                        self.to_settle.push((again, job.file.path.clone()));
+                    }
                 }
                 self.end(&job);
                 Ok(())
@@ -188,7 +197,7 @@ impl Open {
 
     fn end(&mut self, job: &Job) {
         self.with.crew.release(job.file.id);
-        self.backlog.ended(&job.file.path);
+        self.backlog.ended(&job.file);
     }
 }
 

@@ -80,6 +80,10 @@ impl Open {
                 .health
                 .clear(&Trouble::FolderAway(root.to_owned()));
         }
+        let output = &self.with.setup.config.output;
+        self.with
+            .health
+            .clear(&Trouble::NotWritable(output.clone()));
         self.with.lookout.retarget(config);
         self.with.events.retarget(&config.watch);
         let limit = crate::memory::limit(config.limits.memory_limit_bytes);

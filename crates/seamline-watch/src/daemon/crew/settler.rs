@@ -8,6 +8,7 @@ use std::path::{Path, PathBuf};
 use crossbeam_channel::{Receiver, Sender};
 
 use super::Shared;
+use super::writer::is_there;
 use crate::VERSION;
 use crate::config::After;
 use crate::daemon::job::{Failure, Job, Outcome, Settle};
@@ -32,10 +33,17 @@ fn settle(job: &Job, failure: Option<&Failure>) -> io::Result<Option<PathBuf>> {
         return Ok(None);
     }
     let path = &job.file.path;
+    let config = &job.setup.config;
     let place = match (failure, job.after) {
-        (Some(failure), _) => quarantine(job, failure)?,
+        (Some(failure), _) => {
+            is_there(&config.quarantine)?;
+            quarantine(job, failure)?
+        }
         (None, After::Keep) => return Ok(None),
-        (None, After::Move) => move_aside(path, &job.setup.config.done.join(&job.file.relative))?,
+        (None, After::Move) => {
+            is_there(&config.done)?;
+            move_aside(path, &config.done.join(&job.file.relative))?
+        }
         // By way of another name, so that what is deleted is what was looked at.
         (None, After::Delete) => {
             let name = format!("{TEMPORARY_START}{}{TEMPORARY_END}", job.file.id.0);
@@ -59,7 +67,9 @@ fn settle(job: &Job, failure: Option<&Failure>) -> io::Result<Option<PathBuf>> {
 /// Is this what was read? If not, something new came in its place, which is a job of its own and must not be
 /// moved or deleted with the old.
 fn is_ours(job: &Job, path: &Path) -> bool {
-    fs::metadata(path).is_ok_and(|found| job.file.stamp.is_moved(&Stamp::of(&found)))
+    // A link is moved as a link, and may lead nowhere from its new place.
+    fs::symlink_metadata(path).is_ok_and(|found| found.is_symlink())
+        || fs::metadata(path).is_ok_and(|found| job.file.stamp.is_moved(&Stamp::of(&found)))
 }
 
 fn quarantine(job: &Job, failure: &Failure) -> io::Result<PathBuf> {

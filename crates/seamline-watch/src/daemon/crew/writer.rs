@@ -1,6 +1,7 @@
 //! The thread that writes results. While the disk is full it waits, and with it all who come before.
 
 use std::ffi::OsString;
+use std::io;
 use std::path::{Path, PathBuf};
 use std::thread::sleep;
 use std::time::Duration;
@@ -70,6 +71,18 @@ fn write(shared: &Shared, cut: Cut) -> Outcome {
     }
 }
 
+/// A folder that was there at the start and is not any more may be a share that was unmounted: made anew, it would
+/// swallow what is put there.
+pub(super) fn is_there(folder: &Path) -> io::Result<()> {
+    if folder.is_dir() {
+        return Ok(());
+    }
+    Err(io::Error::new(
+        io::ErrorKind::NotFound,
+        "the folder is not there any more",
+    ))
+}
+
 /// The folder of a job's results.
 pub(super) fn result_of(job: &Job) -> PathBuf {
     let (parent, name) = place(job);
@@ -111,6 +124,8 @@ fn write_when_there_is_room(shared: &Shared, cut: &Cut) -> Result<(), OutputErro
 }
 
 fn write_once(cut: &Cut) -> Result<(), OutputError> {
+    is_there(&cut.job.setup.config.output)
+        .map_err(OutputError::io(&cut.job.setup.config.output))?;
     let Cut {
         job,
         mesh,

@@ -225,14 +225,19 @@ impl Ledger {
     }
 
     /// The bytes of the job were cut before, by `holder`, which has the results. If that was at the same path,
-    /// they are this job's from now on.
+    /// they are this job's from now on. False, and nothing is changed, if
+    /// `holder` has lost its results meanwhile.
     pub fn same_content(
         &mut self,
         id: JobId,
         content: &str,
         holder: JobId,
-    ) -> Result<(), LedgerError> {
+    ) -> Result<bool, LedgerError> {
         let transaction = self.connection.transaction()?;
+        let held = "SELECT 1 FROM jobs WHERE id = ?1 AND result IS NOT NULL";
+        if !transaction.prepare_cached(held)?.exists([holder.0])? {
+            return Ok(false);
+        }
         transaction.execute(
             "UPDATE jobs SET state = 'done', ended_at = ?2, content = ?3, same_as = ?4, stage = NULL, \
              message = NULL, hint = NULL, of_content = 0 WHERE id = ?1",
@@ -254,7 +259,8 @@ impl Ledger {
             )?;
             transaction.execute("UPDATE jobs SET result = NULL WHERE id = ?1", [holder.0])?;
         }
-        Ok(transaction.commit()?)
+        transaction.commit()?;
+        Ok(true)
     }
 
     /// The file went away before it was read.

@@ -9,4 +9,4 @@ mod limit;
 
 pub use estimate::{Estimate, START_BYTES, bytes_for_mesh, bytes_kept, estimate};
 pub use gate::{Gate, Pass, TooLarge};
-pub use limit::limit;
+pub use limit::{limit, share_of_meshes};

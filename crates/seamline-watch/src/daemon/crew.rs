@@ -22,7 +22,7 @@ use seamline_ecs::Progress;
 use super::job::{Cut, Failure, Job, Loaded, Outcome, Remedy, Settle};
 use crate::health::Health;
 use crate::ledger::{Fault, JobId, LedgerError, Reader};
-use crate::memory::Gate;
+use crate::memory::{Gate, limit, share_of_meshes};
 use crate::metrics::Metrics;
 use crate::setup::Setup;
 
@@ -99,7 +99,7 @@ impl Crew {
     ) -> Result<Self, StartError> {
         let config = &setup.config;
         let shared = Arc::new(Shared {
-            gate: Gate::new(crate::memory::limit(config.limits.memory_limit_bytes)),
+            gate: Gate::new(share_of_meshes(limit(config.limits.memory_limit_bytes))),
             health,
             metrics,
             claims: Mutex::default(),

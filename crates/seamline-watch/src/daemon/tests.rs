@@ -355,6 +355,24 @@ fn the_same_content_under_another_name_is_not_cut_again() {
 }
 
 #[test]
+fn where_files_do_not_stay_each_name_gets_its_own_results() {
+    let home = Home::new();
+    for name in ["a.obj", "b.obj"] {
+        home.drop_plain(name, 2);
+        assert_eq!(home.once("after = 'delete'"), summary(1, 0));
+    }
+    home.drop_plain("a.obj", 7);
+    assert_eq!(home.once("after = 'delete'"), summary(1, 0));
+    let labels = |name: &str| {
+        let labels = home.at(&format!("out/{name}.seamline/labels.seg"));
+        fs::read_to_string(labels).unwrap().lines().count()
+    };
+    assert_eq!([labels("a.obj"), labels("b.obj")], [7, 2]);
+    home.drop_plain("b.obj", 2);
+    assert_eq!(home.once("after = 'delete'").same, 1);
+}
+
+#[test]
 fn content_whose_results_were_replaced_is_cut_again_for_the_file_that_still_has_it() {
     let home = Home::new();
     home.drop_plain("a.obj", 2);

@@ -41,28 +41,37 @@ impl Reader {
         Ok(Self { connection })
     }
 
-    /// What is known of bytes by their hash, under settings by theirs; nothing if they are to be cut.
-    pub fn known(&self, content: &str, settings: &str) -> Result<Option<Known>, LedgerError> {
+    /// What is known of bytes by their hash, under settings by theirs; nothing if they are to be cut. Where more
+    /// than one file had them, that at `path` is told first.
+    pub fn known(
+        &self,
+        content: &str,
+        settings: &str,
+        path: &Path,
+    ) -> Result<Option<Known>, LedgerError> {
         let mut known = self.connection.prepare_cached(
             "SELECT state, id, path, result, stage, message, hint FROM jobs \
              WHERE content = ?1 AND settings = ?2 AND (state = 'done' AND result IS NOT NULL \
-             OR state = 'quarantined' AND of_content) ORDER BY state, id LIMIT 1",
+             OR state = 'quarantined' AND of_content) ORDER BY state, path <> ?3, id LIMIT 1",
         )?;
-        let found = known.query_row(params![content, settings], |row| {
-            Ok(match row.get(0)? {
-                JobState::Done => Known::Done {
-                    holder: JobId(row.get(1)?),
-                    path: row::path(row, 2)?,
-                    result: row::path(row, 3)?,
-                },
-                _ => Known::Bad(Fault {
-                    stage: row.get(4)?,
-                    message: row.get(5)?,
-                    hint: row.get(6)?,
-                    of_content: true,
-                }),
-            })
-        });
+        let found = known.query_row(
+            params![content, settings, path.as_os_str().as_bytes()],
+            |row| {
+                Ok(match row.get(0)? {
+                    JobState::Done => Known::Done {
+                        holder: JobId(row.get(1)?),
+                        path: row::path(row, 2)?,
+                        result: row::path(row, 3)?,
+                    },
+                    _ => Known::Bad(Fault {
+                        stage: row.get(4)?,
+                        message: row.get(5)?,
+                        hint: row.get(6)?,
+                        of_content: true,
+                    }),
+                })
+            },
+        );
         Ok(found.optional()?)
     }
 

@@ -142,7 +142,7 @@ fn bytes_that_were_cut_are_known_under_the_same_settings_only() {
     let mut home = Home::new();
     let (holder, _) = home.done("a", "1", "c1");
     let [path, result] = ["a", "out/a"].map(PathBuf::from);
-    let known = |settings| home.reader().known("c1", settings).unwrap();
+    let known = |settings| home.reader().known("c1", settings, Path::new("b")).unwrap();
     assert_eq!(
         known(SETTINGS),
         Some(Known::Done {
@@ -152,7 +152,10 @@ fn bytes_that_were_cut_are_known_under_the_same_settings_only() {
         })
     );
     assert_eq!(known("s2"), None);
-    assert_eq!(home.reader().known("c2", SETTINGS).unwrap(), None);
+    assert_eq!(
+        home.reader().known("c2", SETTINGS, Path::new("b")).unwrap(),
+        None
+    );
 }
 
 #[test]
@@ -166,10 +169,13 @@ fn bytes_at_fault_are_known_and_failing_disks_are_not() {
             .unwrap();
     }
     assert_eq!(
-        home.reader().known("a", SETTINGS).unwrap(),
+        home.reader().known("a", SETTINGS, Path::new("c")).unwrap(),
         Some(Known::Bad(fault(true)))
     );
-    assert_eq!(home.reader().known("b", SETTINGS).unwrap(), None);
+    assert_eq!(
+        home.reader().known("b", SETTINGS, Path::new("c")).unwrap(),
+        None
+    );
 }
 
 #[test]
@@ -177,8 +183,9 @@ fn a_touched_file_takes_over_the_results_of_its_own_content() {
     let mut home = Home::new();
     let (first, _) = home.done("a", "1", "c1");
     let (copy, touched) = (home.queue("b", "1"), home.queue("a", "2"));
-    home.ledger.same_content(copy, "c1", first).unwrap();
-    home.ledger.same_content(touched, "c1", first).unwrap();
+    assert!(home.ledger.same_content(copy, "c1", first).unwrap());
+    assert!(home.ledger.same_content(touched, "c1", first).unwrap());
+    assert!(!home.ledger.same_content(copy, "c1", first).unwrap());
     assert_eq!(home.row(first).result, None);
     assert_eq!(home.row(touched).result, Some(PathBuf::from("out/a")));
     assert_eq!(
@@ -193,7 +200,7 @@ fn files_of_the_same_content_as_replaced_results_are_named() {
     let (holder, _) = home.done("a", "1", "c1");
     let copy = home.queue("b", "1");
     home.ledger.begin(copy, SETTINGS).unwrap();
-    home.ledger.same_content(copy, "c1", holder).unwrap();
+    assert!(home.ledger.same_content(copy, "c1", holder).unwrap());
     assert_eq!(home.take_in("b", "1"), TakenIn::Done(copy));
     let (_, stranded) = home.done("a", "2", "c2");
     assert_eq!(stranded, [PathBuf::from("b")]);

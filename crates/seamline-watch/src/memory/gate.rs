@@ -10,11 +10,11 @@ const ASK_EVERY: Duration = Duration::from_millis(50);
 
 /// More than there is altogether.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("needs about {} MiB of memory, and {} MiB is the limit", .needs.div_ceil(1 << 20), .limit >> 20)]
+#[error("needs about {} MiB of memory, and meshes have {} MiB, three quarters of the limit", .needs.div_ceil(1 << 20), .limit >> 20)]
 pub struct TooLarge {
     /// What is needed, in bytes.
     pub needs: u64,
-    /// The limit, in bytes.
+    /// What meshes have, in bytes.
     pub limit: u64,
 }
 

@@ -54,8 +54,9 @@ pub struct LimitsTable {
     pub max_file_bytes: u64,
     /// A mesh of more triangles is refused.
     pub max_triangles: u64,
-    /// Memory for the meshes in work, by estimate: who does not fit beside the others waits, who would not
-    /// fit alone is refused. 0: three quarters of the memory of the machine, or of its container.
+    /// Memory of the whole program. Three quarters of it are for the meshes in work, by estimate: who does not
+    /// fit beside the others waits, who would not fit alone is refused. 0: three quarters of the memory of the
+    /// machine, or of its container.
     pub memory_limit_bytes: u64,
     /// A mesh that takes longer to be cut is given up; 0: none is.
     pub job_timeout_s: u64,

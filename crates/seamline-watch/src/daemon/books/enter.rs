@@ -44,7 +44,12 @@ impl Open {
                 holder,
                 path,
             } => {
-                self.record(|ledger| ledger.same_content(id, &content, holder))?;
+                if !self.record(|ledger| ledger.same_content(id, &content, holder))? {
+                    self.record(|ledger| ledger.put_back(id))?;
+                    self.end(&job);
+                    self.backlog.add(job.file);
+                    return Ok(());
+                }
                 self.summary.same += 1;
                 self.with.metrics.job_ended(OutcomeKind::SameContent);
                 info!(

@@ -10,6 +10,7 @@ use super::{Open, watched_with};
 use crate::config::Config;
 use crate::daemon::{Order, WatchError, make_folders};
 use crate::health::Trouble;
+use crate::memory::{limit, share_of_meshes};
 use crate::service;
 use crate::setup::Setup;
 
@@ -86,7 +87,7 @@ impl Open {
             .clear(&Trouble::NotWritable(output.clone()));
         self.with.lookout.retarget(config);
         self.with.events.retarget(&config.watch);
-        let limit = crate::memory::limit(config.limits.memory_limit_bytes);
+        let limit = share_of_meshes(limit(config.limits.memory_limit_bytes));
         self.with.crew.gate().set_limit(limit);
         self.backlog
             .retain(|job| watched_with(config, &job.path).is_some());

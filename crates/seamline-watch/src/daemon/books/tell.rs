@@ -7,6 +7,7 @@ use rustix::fs::{Access, access};
 use super::Open;
 use crate::daemon::WatchError;
 use crate::health::Trouble;
+use crate::memory::limit;
 use crate::service;
 
 impl Open {
@@ -16,7 +17,7 @@ impl Open {
         metrics.set_queue(self.backlog.waiting());
         metrics.set_abandoned(self.with.crew.abandoned());
         metrics.set_reserved_bytes(self.with.crew.gate().reserved());
-        metrics.set_limit_bytes(self.with.crew.gate().limit());
+        metrics.set_limit_bytes(limit(self.with.setup.config.limits.memory_limit_bytes));
         if self.with.setup.config.http.is_some() {
             let counts = self.record(|ledger| ledger.counts())?;
             let counts: Vec<_> = counts

@@ -1,7 +1,7 @@
 //! The thread that reads: bytes, their hash, whether they are known, then the mesh.
 
 use std::io;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::PoisonError;
 use std::time::Instant;
 
@@ -11,6 +11,7 @@ use tracing::warn;
 use super::Shared;
 use super::guard::guarded;
 use super::writer::result_of;
+use crate::config::After;
 use crate::daemon::job::{Failure, Job, Loaded, Outcome, Remedy};
 use crate::ledger::{Fault, JobId, Known, Reader};
 use crate::load::{FileBytes, LoadError, LoadedMesh, mesh_of, read_file, read_head, weld_share};
@@ -61,13 +62,12 @@ fn read(shared: &Shared, ledger: &Reader, job: Job) -> Result<Box<Loaded>, Box<O
     if let Some(other) = claim(shared, &job, &bytes.hash) {
         return instead(Outcome::Behind { job, other });
     }
-    match ledger.known(&bytes.hash, &job.setup.settings_hash) {
-        // Who drops a file whose results were taken away wants them again.
+    match ledger.known(&bytes.hash, &job.setup.settings_hash, &job.file.path) {
         Ok(Some(Known::Done {
             holder,
             path,
             result,
-        })) if holder != job.file.id && result.is_dir() => {
+        })) if holder != job.file.id && serves(&job, &path, &result) => {
             let content = bytes.hash;
             return instead(Outcome::Same {
                 job,
@@ -97,6 +97,13 @@ fn read(shared: &Shared, ledger: &Reader, job: Job) -> Result<Box<Loaded>, Box<O
         }
         Err(failure) => Err(Box::new(Outcome::Failed { job, failure })),
     }
+}
+
+/// Do the results of the same bytes at another path serve a job? Not if somebody has taken them away: who drops the
+/// file again wants them again. Nor if they are under another name and the file is not to stay: of two names
+/// one may get other content and with it other results, and of the other nothing would be left.
+fn serves(job: &Job, path: &Path, result: &Path) -> bool {
+    (path == job.file.path || job.after == After::Keep) && result.is_dir()
 }
 
 /// Waits for memory, before anything of the file is in it.

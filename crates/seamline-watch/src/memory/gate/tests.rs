@@ -47,7 +47,7 @@ fn what_never_fits_is_refused_and_changes_nothing() {
     assert_eq!(gate.try_enter(needs).unwrap_err(), error);
     assert_eq!(
         error.to_string(),
-        "needs about 150 MiB of memory, and 100 MiB is the limit"
+        "needs about 150 MiB of memory, and meshes have 100 MiB, three quarters of the limit"
     );
     let mut pass = entered(&gate, 5);
     assert_eq!(pass.resize(needs, NEVER), Err(error));

@@ -1,0 +1,128 @@
+//! Small changes after the selection: regions taken back whose borders explain nothing, and pieces that lie
+//! on a larger neighbour's surface after all.
+
+use std::collections::{BTreeMap, HashSet};
+
+use seamline_mesh::Topology;
+
+use crate::hypothesis::{Hypothesis, View};
+use crate::pieces::NONE;
+use crate::regions::Regions;
+
+/// Share of the smooth border against something unexplained from which a small region is dissolved.
+const UNEXPLAINED_SHARE: f64 = 0.5;
+/// Regions of fewer pieces are dissolved so.
+const FEW_PIECES: usize = 25;
+/// And these if hardly anything is tangent to them either.
+const SOME_PIECES: usize = 200;
+const TANGENT_SHARE: f64 = 0.2;
+
+/// Least cosine between the normals of a lone triangle and of the surface it lies on: at the pole of a
+/// coarse sphere triangles meet at 60 degrees.
+const LONE_TRIANGLE_COS: f64 = 0.6;
+const PIECE_COS: f64 = 0.85;
+
+/// Sets regions free that end against something unexplained.
+pub(crate) fn dissolve(view: View, topology: &Topology, regions: &mut Regions) {
+    let alive: Vec<u32> = regions.alive().collect();
+    for region in alive {
+        let own = &regions.all[region as usize];
+        let owner = &regions.owner;
+        let border = regions.border(view, topology, own, |p| owner[p as usize] == region);
+        let smooth = border.smooth();
+        let unexplained = border.unexplained > UNEXPLAINED_SHARE * smooth;
+        let few = own.pieces.len() < FEW_PIECES;
+        let some = own.pieces.len() < SOME_PIECES && border.tangent < TANGENT_SHARE * smooth;
+        if unexplained && (few || some) {
+            regions.dissolve(region);
+        }
+    }
+}
+
+/// Gives regions and unowned pieces that lie on the surface of a larger neighbour to it, over walls too.
+pub(crate) fn absorb(view: View, regions: &mut Regions, tolerance: f64) {
+    for _ in 0..5 {
+        let joined = absorb_regions(view, regions, tolerance) + absorb_pieces(view, regions, tolerance);
+        if joined == 0 {
+            break;
+        }
+    }
+}
+
+fn absorb_regions(view: View, regions: &mut Regions, tolerance: f64) -> usize {
+    let mut joined = 0;
+    let mut alive: Vec<u32> = regions.alive().collect();
+    alive.sort_by_key(|&r| regions.all[r as usize].evidence);
+    for small in alive {
+        let mut beside: BTreeMap<u32, f64> = BTreeMap::new();
+        for &piece in &regions.all[small as usize].pieces {
+            for &link in view.pieces.around.row(piece) {
+                let link = &view.pieces.links[link as usize];
+                let owner = regions.owner[link.across(piece) as usize];
+                if owner != NONE && owner != small {
+                    *beside.entry(owner).or_default() += link.length;
+                }
+            }
+        }
+        let evidence = |r: u32| regions.all[r as usize].evidence;
+        let takes = |large: u32| {
+            let Hypothesis { surface, sign, .. } = &regions.all[large as usize];
+            let own = &regions.all[small as usize].pieces;
+            own.iter()
+                .all(|&p| view.fits(p, surface, *sign, tolerance))
+        };
+        let taker = beside
+            .into_iter()
+            .filter(|&(large, _)| evidence(large) > evidence(small) && takes(large))
+            .max_by(|a, b| a.1.total_cmp(&b.1));
+        if let Some((large, _)) = taker {
+            let gone = regions.dissolve(small);
+            join(view, regions, large, gone.pieces, tolerance);
+            joined += 1;
+        }
+    }
+    joined
+}
+
+fn absorb_pieces(view: View, regions: &mut Regions, tolerance: f64) -> usize {
+    let mut takers: Vec<(u32, u32)> = Vec::new();
+    for piece in 0..view.pieces.count() as u32 {
+        if regions.owner[piece as usize] != NONE || view.pieces.certain[piece as usize] {
+            continue;
+        }
+        let lone = view.pieces.faces.row(piece).len() == 1;
+        let cos = if lone { LONE_TRIANGLE_COS } else { PIECE_COS };
+        let mut best: Option<(f64, u32)> = None;
+        for &link in view.pieces.around.row(piece) {
+            let link = &view.pieces.links[link as usize];
+            let owner = regions.owner[link.across(piece) as usize];
+            if owner == NONE {
+                continue;
+            }
+            let Hypothesis { surface, sign, .. } = &regions.all[owner as usize];
+            if view.fits_turned(piece, surface, *sign, tolerance, cos)
+                && best.is_none_or(|(length, _)| link.length > length)
+            {
+                best = Some((link.length, owner));
+            }
+        }
+        takers.extend(best.map(|(_, owner)| (owner, piece)));
+    }
+    takers.sort_unstable();
+    for same in takers.chunk_by(|a, b| a.0 == b.0) {
+        let pieces = same.iter().map(|&(_, piece)| piece).collect();
+        join(view, regions, same[0].0, pieces, tolerance);
+    }
+    takers.len()
+}
+
+fn join(view: View, regions: &mut Regions, region: u32, more: Vec<u32>, tolerance: f64) {
+    for &piece in &more {
+        regions.owner[piece as usize] = region;
+    }
+    let own = &mut regions.all[region as usize];
+    let mut pieces = std::mem::take(&mut own.pieces);
+    pieces.extend(more);
+    debug_assert_eq!(pieces.iter().collect::<HashSet<_>>().len(), pieces.len());
+    *own = view.weigh(own.surface, own.sign, pieces, tolerance);
+}

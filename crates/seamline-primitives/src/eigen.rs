@@ -1,0 +1,92 @@
+//! Eigenvectors of small symmetric matrices.
+
+/// Eigenvalues in rising order, and the unit eigenvector of each, by Jacobi's rotations.
+pub(crate) fn symmetric<const N: usize>(mut m: [[f64; N]; N]) -> ([f64; N], [[f64; N]; N]) {
+    let mut vectors = [[0.0; N]; N];
+    for (i, row) in vectors.iter_mut().enumerate() {
+        row[i] = 1.0;
+    }
+    for _ in 0..30 {
+        let mut off = 0.0;
+        let mut on = 0.0;
+        for i in 0..N {
+            on += m[i][i] * m[i][i];
+            for j in 0..i {
+                off += m[i][j] * m[i][j];
+            }
+        }
+        if off <= on * 1e-30 {
+            break;
+        }
+        for p in 0..N {
+            for q in p + 1..N {
+                rotate(&mut m, &mut vectors, p, q);
+            }
+        }
+    }
+    let mut order: [usize; N] = std::array::from_fn(|i| i);
+    order.sort_unstable_by(|&i, &j| m[i][i].total_cmp(&m[j][j]));
+    (order.map(|i| m[i][i]), order.map(|i| vectors[i]))
+}
+
+/// One rotation that makes `m[p][q]` zero; row `i` of `vectors` is the `i`-th eigenvector so far.
+fn rotate<const N: usize>(
+    m: &mut [[f64; N]; N],
+    vectors: &mut [[f64; N]; N],
+    p: usize,
+    q: usize,
+) {
+    if m[p][q] == 0.0 {
+        return;
+    }
+    let theta = (m[q][q] - m[p][p]) / (2.0 * m[p][q]);
+    let t = theta.signum() / (theta.abs() + theta.hypot(1.0));
+    let t = if theta == 0.0 { 1.0 } else { t };
+    let c = 1.0 / t.hypot(1.0);
+    let s = t * c;
+    for k in 0..N {
+        let (a, b) = (m[k][p], m[k][q]);
+        m[k][p] = c * a - s * b;
+        m[k][q] = s * a + c * b;
+    }
+    for k in 0..N {
+        let (a, b) = (m[p][k], m[q][k]);
+        m[p][k] = c * a - s * b;
+        m[q][k] = s * a + c * b;
+    }
+    for k in 0..N {
+        let (a, b) = (vectors[p][k], vectors[q][k]);
+        vectors[p][k] = c * a - s * b;
+        vectors[q][k] = s * a + c * b;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    proptest! {
+        #[test]
+        fn a_matrix_times_its_eigenvector_is_the_eigenvalue_times_it(
+            values in prop::array::uniform32(-1.0..1.0f64),
+        ) {
+            let mut m = [[0.0; 6]; 6];
+            let mut values = values.into_iter();
+            for i in 0..6 {
+                for j in 0..=i {
+                    m[i][j] = values.next().unwrap_or(0.5);
+                    m[j][i] = m[i][j];
+                }
+            }
+            let (eigenvalues, vectors) = symmetric(m);
+            for (lambda, v) in eigenvalues.iter().zip(vectors) {
+                for (row, v_i) in m.iter().zip(v) {
+                    let product: f64 = row.iter().zip(v).map(|(a, b)| a * b).sum();
+                    prop_assert!((product - lambda * v_i).abs() < 1e-12);
+                }
+            }
+            prop_assert!(eigenvalues.is_sorted());
+        }
+    }
+}

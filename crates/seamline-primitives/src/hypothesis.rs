@@ -1,0 +1,147 @@
+//! Hypotheses: a surface, the pieces that lie on it, and how far they prove it.
+
+use glam::DVec3;
+
+use crate::pieces::Pieces;
+use crate::surface::{Kind, Surface};
+
+/// A surface with the connected pieces that lie on it.
+#[derive(Clone, Debug)]
+pub(crate) struct Hypothesis {
+    pub surface: Surface,
+    /// Does the distance grow towards the outside (1) or the inside (-1) of the part?
+    pub sign: f64,
+    pub pieces: Vec<u32>,
+    /// Distinct vertices less degrees of freedom.
+    pub evidence: i64,
+    /// Is it over-determined across rows, so that chance cannot explain the fit?
+    pub strong: bool,
+}
+
+/// The mesh as the search sees it.
+#[derive(Clone, Copy)]
+pub(crate) struct View<'a> {
+    pub positions: &'a [DVec3],
+    pub pieces: &'a Pieces,
+}
+
+impl View<'_> {
+    /// Do all vertices of a piece lie on the surface, and does its normal agree at the centroid?
+    pub fn fits(&self, piece: u32, surface: &Surface, sign: f64, tolerance: f64) -> bool {
+        self.fits_turned(piece, surface, sign, tolerance, NORMALS_AGREE)
+    }
+
+    pub fn fits_turned(
+        &self,
+        piece: u32,
+        surface: &Surface,
+        sign: f64,
+        tolerance: f64,
+        least_cos: f64,
+    ) -> bool {
+        let normal = self.pieces.normals[piece as usize];
+        let gradient = surface.gradient(self.pieces.centroids[piece as usize]);
+        (normal == DVec3::ZERO || sign * gradient.dot(normal) >= least_cos)
+            && self
+                .pieces
+                .vertices
+                .row(piece)
+                .iter()
+                .all(|&v| surface.distance(self.positions[v as usize]).abs() <= tolerance)
+    }
+
+    /// Distinct vertices of pieces.
+    pub fn vertices_of(&self, pieces: &[u32]) -> Vec<u32> {
+        let rows = pieces.iter().map(|&p| self.pieces.vertices.row(p));
+        let mut vertices: Vec<u32> = rows.flatten().copied().collect();
+        vertices.sort_unstable();
+        vertices.dedup();
+        vertices
+    }
+
+    pub fn area(&self, pieces: &[u32]) -> f64 {
+        pieces.iter().map(|&p| self.pieces.areas[p as usize]).sum()
+    }
+
+    /// Weighs pieces that lie on a surface.
+    pub fn weigh(
+        &self,
+        surface: Surface,
+        sign: f64,
+        pieces: Vec<u32>,
+        tolerance: f64,
+    ) -> Hypothesis {
+        let vertices = self.vertices_of(&pieces);
+        let evidence = vertices.len() as i64 - surface.kind.degrees_of_freedom() as i64;
+        let points: Vec<DVec3> = vertices
+            .iter()
+            .map(|&v| self.positions[v as usize])
+            .collect();
+        Hypothesis {
+            strong: is_strong(&surface, &points, 4.0 * tolerance),
+            surface,
+            sign,
+            pieces,
+            evidence,
+        }
+    }
+}
+
+/// Least cosine between a piece's normal and the surface's at its centroid.
+const NORMALS_AGREE: f64 = 0.85;
+
+/// Is the fit over-determined across rows? Vertices along one ruling or one circle of revolution count once:
+/// any strip of any surface of revolution is an exact cone, and any two strips an exact torus.
+fn is_strong(surface: &Surface, points: &[DVec3], apart: f64) -> bool {
+    match surface.kind {
+        Kind::Plane => true,
+        Kind::Cylinder => {
+            let (u, v) = surface.axis.any_orthonormal_pair();
+            let angle = |x: DVec3| (x - surface.point).dot(v).atan2((x - surface.point).dot(u));
+            levels(points.iter().map(|&x| angle(x) * surface.a), apart) >= 4
+        }
+        Kind::Cone => levels(points.iter().map(|&x| surface.about_axis(x).height), apart) >= 3,
+        Kind::Torus => {
+            let angle = |x: DVec3| {
+                let at = surface.about_axis(x);
+                at.height.atan2(at.distance - surface.a)
+            };
+            levels(points.iter().map(|&x| angle(x) * surface.b), apart) >= 4
+        }
+        Kind::Sphere => points.len() >= 8 && fills_space(points, apart),
+    }
+}
+
+/// How many values differ by more than `apart`.
+fn levels(values: impl Iterator<Item = f64>, apart: f64) -> usize {
+    let mut values: Vec<f64> = values.collect();
+    values.sort_unstable_by(f64::total_cmp);
+    let mut count = 0;
+    let mut last = f64::NEG_INFINITY;
+    for value in values {
+        if value - last > apart {
+            count += 1;
+            last = value;
+        }
+    }
+    count
+}
+
+/// Four levels at least along each principal axis.
+fn fills_space(points: &[DVec3], apart: f64) -> bool {
+    let centre = points.iter().sum::<DVec3>() / points.len() as f64;
+    let mut m = [[0.0; 3]; 3];
+    for x in points {
+        let x = (*x - centre).to_array();
+        for i in 0..3 {
+            for j in 0..3 {
+                m[i][j] += x[i] * x[j];
+            }
+        }
+    }
+    let (_, axes) = crate::eigen::symmetric(m);
+    axes.into_iter().all(|axis| {
+        let axis = DVec3::from_array(axis);
+        levels(points.iter().map(|&x| (x - centre).dot(axis)), apart) >= 4
+    })
+}

@@ -1,0 +1,164 @@
+//! Planes, cylinders, cones, spheres and tori, found exactly in the facets of a CAD tessellation.
+//!
+//! Vertices of a CAD export lie on the designed surface to the last bits of a float. So a hypothesis (this
+//! plane, this cylinder) can be tested almost exactly, where curvature only hints.
+
+mod absorb;
+mod certain;
+mod eigen;
+mod guess;
+mod hypothesis;
+mod parts;
+mod pieces;
+mod refine;
+mod regions;
+mod rows;
+mod search;
+mod select;
+mod surface;
+mod trust;
+
+use glam::DVec3;
+use seamline_mesh::Topology;
+
+pub use surface::{Kind, Surface};
+
+use hypothesis::{Hypothesis, View};
+use parts::Form;
+use pieces::{NONE, Pieces, Triangles};
+use regions::Regions;
+use search::Search;
+use select::{borders_speak_for, select};
+
+/// Distances, in diagonals of the bounding box, at which vertices still lie on a surface: the precision of an
+/// export, then that of kernels which store an approximation.
+const LADDER: [f64; 3] = [1e-6, 1e-5, 5e-5];
+
+/// A patch found.
+#[derive(Clone, Debug)]
+pub struct Patch {
+    /// What it is; `None` for a free form.
+    pub surface: Option<Surface>,
+}
+
+/// The patches of a mesh.
+#[derive(Clone, Debug, Default)]
+pub struct Partition {
+    /// The patch of each face.
+    pub of_face: Vec<u32>,
+    /// One a patch.
+    pub patches: Vec<Patch>,
+    /// How many fits were made.
+    pub fits: usize,
+}
+
+/// Finds the patches of a mesh.
+pub fn find(positions: &[DVec3], topology: &Topology) -> Partition {
+    let (centre, diagonal) = frame(positions, topology);
+    let scaled: Vec<DVec3> = positions.iter().map(|&x| (x - centre) / diagonal).collect();
+    let triangles = Triangles::of(&scaled, &topology.triangles);
+    let pieces = Pieces::find(&scaled, topology, &triangles, LADDER[0]);
+    let view = View {
+        positions: &scaled,
+        pieces: &pieces,
+    };
+    let mut fits = 0;
+    let mut regions = Regions::none(pieces.count());
+    for (rung, &tolerance) in LADDER.iter().enumerate() {
+        climb(view, topology, &mut regions, rung, tolerance, &mut fits);
+    }
+    absorb::dissolve(view, topology, &mut regions);
+    absorb::absorb(view, &mut regions, LADDER[0]);
+    let trusted = trust::trusted(view, topology, &regions);
+    let doubtful: Vec<u32> = regions.alive().filter(|&r| !trusted[r as usize]).collect();
+    for region in doubtful {
+        regions.dissolve(region);
+    }
+    let mut parts = parts::parts(view, topology, &regions, LADDER[0]);
+    parts::join_islands(view, &regions, &mut parts);
+    let of_face = pieces.of_face.iter();
+    Partition {
+        of_face: of_face.map(|&p| parts.of_piece[p as usize]).collect(),
+        patches: parts
+            .forms
+            .iter()
+            .map(|form| Patch {
+                surface: match form {
+                    Form::Surface(region) => Some(regions.all[*region as usize].surface),
+                    _ => None,
+                },
+            })
+            .collect(),
+        fits,
+    }
+}
+
+/// Centre and diagonal of the box of the used vertices.
+fn frame(positions: &[DVec3], topology: &Topology) -> (DVec3, f64) {
+    let used = topology.triangles.as_flattened().iter();
+    let (low, high) = used
+        .map(|&v| positions[v as usize])
+        .fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), x| {
+            (low.min(x), high.max(x))
+        });
+    ((low + high) / 2.0, (high - low).length())
+}
+
+/// One rung of the ladder of tolerances.
+fn climb(
+    view: View,
+    topology: &Topology,
+    regions: &mut Regions,
+    rung: usize,
+    tolerance: f64,
+    fits: &mut usize,
+) {
+    let freed = if rung == 0 {
+        Vec::new()
+    } else {
+        let trusted = trust::trusted(view, topology, regions);
+        let doubtful: Vec<u32> = regions
+            .alive()
+            .filter(|&r| !trusted[r as usize] && regions.all[r as usize].evidence < 120)
+            .collect();
+        doubtful.into_iter().map(|r| regions.dissolve(r)).collect()
+    };
+    let open: Vec<bool> = (0..view.pieces.count())
+        .map(|p| !view.pieces.certain[p] && regions.owner[p] == NONE)
+        .collect();
+    let mut search = Search::new(view, &open, tolerance);
+    let found = search.run();
+    *fits += search.fits;
+    let least = |kind: Kind| match (rung, kind) {
+        (0, _) => 1,
+        (1, Kind::Cylinder) => 16,
+        (1, _) => 40,
+        _ => 100,
+    };
+    let enough = |h: &Hypothesis| h.strong && h.evidence >= least(h.surface.kind);
+    let mut rest = select(view, regions, found, tolerance, |_, h| enough(h));
+    if rung == 0 {
+        for _ in 0..3 {
+            let before = regions.all.len();
+            rest = select(view, regions, rest, tolerance, |regions, h| {
+                borders_speak_for(view, topology, regions, h)
+            });
+            if regions.all.len() == before {
+                break;
+            }
+        }
+    }
+    for hypothesis in freed {
+        let left: Vec<u32> = hypothesis
+            .pieces
+            .iter()
+            .copied()
+            .filter(|&p| regions.owner[p as usize] == NONE)
+            .collect();
+        if 2 * left.len() > hypothesis.pieces.len() {
+            let back = view.weigh(hypothesis.surface, hypothesis.sign, left, tolerance);
+            regions.accept(back);
+        }
+    }
+}
+

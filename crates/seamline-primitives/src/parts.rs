@@ -1,0 +1,193 @@
+//! Parts: the pieces of a mesh in groups, each a surface accepted, a plane, or a free form.
+
+use std::collections::BTreeMap;
+
+use seamline_mesh::{Sets, Topology};
+
+use crate::certain::is_certain_plane;
+use crate::hypothesis::View;
+use crate::pieces::NONE;
+use crate::regions::{Ending, Regions};
+
+/// What a part is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Form {
+    /// A region with its surface.
+    Surface(u32),
+    /// One flat piece.
+    Plane,
+    /// Pieces that no surface explains.
+    Free,
+}
+
+/// The pieces of a mesh in groups.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Parts {
+    /// The part of each piece.
+    pub of_piece: Vec<u32>,
+    /// What each part is.
+    pub forms: Vec<Form>,
+}
+
+/// How many times larger than each smooth neighbour a flat piece is a plane of its own.
+const MUCH_LARGER: f64 = 4.0;
+
+/// Groups the pieces: a part for each region and for each plane, and the rest united over what is no wall.
+pub(crate) fn parts(view: View, topology: &Topology, regions: &Regions, tolerance: f64) -> Parts {
+    let pieces = view.pieces;
+    let planes: Vec<bool> = (0..pieces.count() as u32)
+        .map(|piece| {
+            regions.owner[piece as usize] == NONE
+                && is_plane(view, topology, regions, piece, tolerance)
+        })
+        .collect();
+    let mut sets = Sets::new(pieces.count());
+    for region in regions.alive() {
+        let own = &regions.all[region as usize].pieces;
+        for &piece in own {
+            sets.unite(own[0], piece);
+        }
+    }
+    let free = |p: u32| regions.owner[p as usize] == NONE && !planes[p as usize];
+    for link in pieces.links.iter().filter(|link| !link.wall) {
+        let [a, b] = link.pieces;
+        if free(a) && free(b) {
+            sets.unite(a, b);
+        }
+    }
+    let (of_piece, count) = sets.numbered();
+    let mut forms = vec![Form::Free; count];
+    for (piece, &part) in of_piece.iter().enumerate() {
+        let owner = regions.owner[piece];
+        if owner != NONE {
+            forms[part as usize] = Form::Surface(owner);
+        } else if planes[piece] {
+            forms[part as usize] = Form::Plane;
+        }
+    }
+    Parts { of_piece, forms }
+}
+
+/// Is an unowned piece a plane of its own?
+fn is_plane(
+    view: View,
+    topology: &Topology,
+    regions: &Regions,
+    piece: u32,
+    tolerance: f64,
+) -> bool {
+    let pieces = view.pieces;
+    if pieces.certain[piece as usize] || pieces.smooth_links(piece).next().is_none() {
+        return true;
+    }
+    let vertices = pieces.vertices.row(piece);
+    if vertices.len() >= 5 && is_certain_plane(view.positions, vertices, tolerance) {
+        return true;
+    }
+    let area = pieces.areas[piece as usize];
+    let mut largest = 0.0f64;
+    for &link in pieces.around.row(piece) {
+        let at = &pieces.links[link as usize];
+        let across = at.across(piece);
+        let owner = regions.owner[across as usize];
+        if at.wall {
+            continue;
+        }
+        if owner == NONE {
+            if !pieces.certain[across as usize] {
+                largest = largest.max(pieces.areas[across as usize]);
+            }
+        } else if regions.ending(view, topology, &regions.all[owner as usize], across, link)
+            == Ending::Tangent
+        {
+            return true;
+        }
+    }
+    area > MUCH_LARGER * largest
+}
+
+/// A part on the way to others.
+#[derive(Clone, Debug, Default)]
+struct Island {
+    area: f64,
+    pieces: usize,
+    /// Length of smooth border with each neighbour.
+    beside: BTreeMap<u32, f64>,
+}
+
+/// Least share of an island's smooth border with the component it joins.
+const ISLAND_SHARE: f64 = 0.34;
+/// A component that takes islands in has this many pieces and so many times their area.
+const TAKES_FROM: usize = 20;
+const TAKES_AREA: f64 = 3.0;
+/// A free form of so few pieces is an island, and a surface of so little evidence.
+const FEW_PIECES: usize = 8;
+const LITTLE_EVIDENCE: i64 = 25;
+
+/// Small doubtful parts join the free form they lie in, smallest first.
+pub(crate) fn join_islands(view: View, regions: &Regions, parts: &mut Parts) {
+    for _ in 0..5 {
+        if !join_islands_once(view, regions, parts) {
+            return;
+        }
+    }
+}
+
+fn join_islands_once(view: View, regions: &Regions, parts: &mut Parts) -> bool {
+    let pieces = view.pieces;
+    let mut all = vec![Island::default(); parts.forms.len()];
+    let mut certain = vec![false; parts.forms.len()];
+    let mut most_vertices = vec![0; parts.forms.len()];
+    for (piece, &part) in parts.of_piece.iter().enumerate() {
+        all[part as usize].area += pieces.areas[piece];
+        all[part as usize].pieces += 1;
+        certain[part as usize] |= pieces.certain[piece];
+        let vertices = pieces.vertices.row(piece as u32).len();
+        most_vertices[part as usize] = vertices.max(most_vertices[part as usize]);
+    }
+    for link in pieces.links.iter().filter(|link| !link.wall) {
+        let [a, b] = link.pieces.map(|p| parts.of_piece[p as usize]);
+        if a != b {
+            *all[a as usize].beside.entry(b).or_default() += link.length;
+            *all[b as usize].beside.entry(a).or_default() += link.length;
+        }
+    }
+    let is_island = |part: usize| match parts.forms[part] {
+        Form::Plane => !certain[part] && most_vertices[part] <= 4,
+        Form::Surface(region) => regions.all[region as usize].evidence < LITTLE_EVIDENCE,
+        Form::Free => all[part].pieces <= FEW_PIECES,
+    };
+    let mut islands: Vec<usize> = (0..all.len())
+        .filter(|&part| !certain[part] && all[part].pieces > 0 && is_island(part))
+        .collect();
+    islands.sort_by(|&a, &b| all[a].area.total_cmp(&all[b].area));
+    let mut into: Vec<u32> = (0..all.len() as u32).collect();
+    let mut any = false;
+    for island in islands {
+        if into[island] != island as u32 {
+            continue;
+        }
+        let smooth: f64 = all[island].beside.values().sum();
+        let takes = |&(part, length): &(&u32, &f64)| {
+            let other = &all[*part as usize];
+            parts.forms[*part as usize] == Form::Free
+                && into[*part as usize] == *part
+                && other.pieces >= TAKES_FROM
+                && other.area >= TAKES_AREA * all[island].area
+                && *length >= ISLAND_SHARE * smooth
+        };
+        let taker = all[island]
+            .beside
+            .iter()
+            .filter(takes)
+            .max_by(|a, b| a.1.total_cmp(b.1));
+        if let Some((&taker, _)) = taker {
+            into[island] = taker;
+            any = true;
+        }
+    }
+    for part in &mut parts.of_piece {
+        *part = into[*part as usize];
+    }
+    any
+}

@@ -1,0 +1,34 @@
+//! Rows of numbers of different lengths, one after the other.
+
+/// Row `i` holds the values given for `i`, in the order of the pairs.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Rows {
+    starts: Vec<u32>,
+    values: Vec<u32>,
+}
+
+impl Rows {
+    /// From pairs of row and value.
+    pub fn of_pairs(row_count: usize, pairs: &[(u32, u32)]) -> Self {
+        let mut starts = vec![0u32; row_count + 1];
+        for &(row, _) in pairs {
+            starts[row as usize + 1] += 1;
+        }
+        for row in 0..row_count {
+            starts[row + 1] += starts[row];
+        }
+        let mut next = starts.clone();
+        let mut values = vec![0; pairs.len()];
+        for &(row, value) in pairs {
+            values[next[row as usize] as usize] = value;
+            next[row as usize] += 1;
+        }
+        Self { starts, values }
+    }
+
+    /// One row.
+    #[inline]
+    pub fn row(&self, row: u32) -> &[u32] {
+        &self.values[self.starts[row as usize] as usize..self.starts[row as usize + 1] as usize]
+    }
+}

@@ -1,0 +1,320 @@
+//! The search for surfaces: from each smooth piece not yet explained, fits to small neighbourhoods, grown as
+//! far as they hold.
+
+use glam::DVec3;
+
+use crate::guess::{Neighbourhood, guesses};
+use crate::hypothesis::{Hypothesis, View};
+use crate::pieces::NONE;
+use crate::refine::refine;
+use crate::surface::{Kind, Surface};
+
+/// Least cosine between the normals of a neighbourhood and of the piece it surrounds.
+const STAR_COS: f64 = 0.7;
+const RING_COS: f64 = 0.9;
+/// Most pieces in a neighbourhood.
+const MOST_IN_RING: usize = 60;
+/// Most neighbourhoods of three pieces tried for one seed.
+const MOST_TRIPLES: usize = 12;
+/// Most vertices a fit looks at; more do not make it better.
+const MOST_POINTS: usize = 400;
+/// Pieces a strong hypothesis must have to spare its pieces from being seeds.
+const COVERS: usize = 8;
+
+/// Marks of pieces or vertices that are forgotten all at once.
+#[derive(Default)]
+struct Marks {
+    of: Vec<u32>,
+    now: u32,
+}
+
+impl Marks {
+    fn begin(&mut self, count: usize) {
+        self.of.resize(count, 0);
+        self.now += 1;
+    }
+
+    /// Marks an item; true if it was not marked yet.
+    fn mark(&mut self, item: u32) -> bool {
+        let was = std::mem::replace(&mut self.of[item as usize], self.now);
+        was != self.now
+    }
+}
+
+/// Finds hypotheses on the pieces that may take part.
+pub(crate) struct Search<'a> {
+    view: View<'a>,
+    tolerance: f64,
+    /// May a piece take part?
+    open: &'a [bool],
+    marks: Marks,
+    pub fits: usize,
+}
+
+impl<'a> Search<'a> {
+    pub fn new(view: View<'a>, open: &'a [bool], tolerance: f64) -> Self {
+        Self {
+            view,
+            tolerance,
+            open,
+            marks: Marks::default(),
+            fits: 0,
+        }
+    }
+
+    /// All hypotheses worth weighing, in the order their seeds come: from the largest piece down.
+    pub fn run(&mut self) -> Vec<Hypothesis> {
+        let pieces = self.view.pieces;
+        let mut seeds: Vec<u32> = (0..pieces.count() as u32)
+            .filter(|&p| self.open[p as usize])
+            .filter(|&p| self.neighbours(p).next().is_some())
+            .collect();
+        let area = |&p: &u32| pieces.areas[p as usize];
+        seeds.sort_by(|a, b| area(b).total_cmp(&area(a)));
+        let mut covered = vec![false; pieces.count()];
+        let mut found = Vec::new();
+        for seed in seeds {
+            if covered[seed as usize] {
+                continue;
+            }
+            for hypothesis in self.from_seed(seed) {
+                if hypothesis.strong && hypothesis.pieces.len() >= COVERS {
+                    for &piece in &hypothesis.pieces {
+                        covered[piece as usize] = true;
+                    }
+                }
+                found.push(hypothesis);
+            }
+        }
+        found
+    }
+
+    /// Pieces beside a piece that may take part, over links that are no walls.
+    fn neighbours(&self, piece: u32) -> impl Iterator<Item = u32> {
+        let open = self.open;
+        self.view
+            .pieces
+            .smooth_links(piece)
+            .map(move |link| link.across(piece))
+            .filter(move |&p| open[p as usize])
+    }
+
+    /// The best hypothesis of each kind that holds the seed.
+    fn from_seed(&mut self, seed: u32) -> Vec<Hypothesis> {
+        let mut best: [Option<Hypothesis>; 4] = Default::default();
+        for triple in self.triples(seed) {
+            for kind in [Kind::Cylinder, Kind::Cone] {
+                if self.settled(&best, kind) {
+                    continue;
+                }
+                self.attempt(seed, kind, &triple, &mut best);
+            }
+        }
+        for star in self.stars(seed) {
+            for kind in Kind::CURVED {
+                if !self.settled(&best, kind) {
+                    self.attempt(seed, kind, &star, &mut best);
+                }
+            }
+        }
+        if !best.iter().flatten().any(|h| h.strong) {
+            for rings in [1, 2] {
+                let ring = self.rings(seed, rings);
+                for kind in Kind::CURVED {
+                    if !self.settled(&best, kind) {
+                        self.attempt(seed, kind, &ring, &mut best);
+                    }
+                }
+            }
+        }
+        best.into_iter().flatten().collect()
+    }
+
+    /// Is more of this kind not to be had?
+    fn settled(&self, best: &[Option<Hypothesis>; 4], kind: Kind) -> bool {
+        best[kind as usize - 1]
+            .as_ref()
+            .is_some_and(|h| h.strong && h.pieces.len() >= COVERS)
+    }
+
+    fn attempt(
+        &mut self,
+        seed: u32,
+        kind: Kind,
+        around: &[u32],
+        best: &mut [Option<Hypothesis>; 4],
+    ) {
+        let vertices = self.view.vertices_of(around);
+        if vertices.len() < kind.degrees_of_freedom() + 2 {
+            return;
+        }
+        let points = self.few(&vertices);
+        let pick = |of: &[DVec3]| -> Vec<DVec3> { around.iter().map(|&p| of[p as usize]).collect() };
+        let neighbourhood = Neighbourhood {
+            normals: &pick(&self.view.pieces.normals),
+            centroids: &pick(&self.view.pieces.centroids),
+            points: &points,
+        };
+        for guess in guesses(kind, &neighbourhood) {
+            self.fits += 1;
+            let Some(fit) = refine(guess, &points, self.tolerance) else {
+                continue;
+            };
+            if fit.rms > self.tolerance {
+                continue;
+            }
+            let slot = &mut best[kind as usize - 1];
+            if slot
+                .as_ref()
+                .is_some_and(|h| self.view.fits(seed, &fit.surface, h.sign, self.tolerance) && {
+                    let same = around.iter().all(|p| h.pieces.contains(p));
+                    same && h.pieces.len() > around.len()
+                })
+            {
+                continue;
+            }
+            if let Some(grown) = self.grow(seed, fit.surface, around.len()) {
+                let larger = slot
+                    .as_ref()
+                    .is_none_or(|h| grown.pieces.len() > h.pieces.len());
+                if larger {
+                    *slot = Some(grown);
+                }
+            }
+        }
+    }
+
+    fn few(&self, vertices: &[u32]) -> Vec<DVec3> {
+        vertices
+            .iter()
+            .step_by(vertices.len().div_ceil(MOST_POINTS))
+            .map(|&v| self.view.positions[v as usize])
+            .collect()
+    }
+
+    /// Grows a surface from its seed; whenever the region has doubled it is fitted again, so that the error
+    /// of extrapolation stays below the tolerance.
+    fn grow(&mut self, seed: u32, mut surface: Surface, fitted: usize) -> Option<Hypothesis> {
+        let normal = self.view.pieces.normals[seed as usize];
+        let gradient = surface.gradient(self.view.pieces.centroids[seed as usize]);
+        let sign = gradient.dot(normal).signum();
+        let mut fitted = fitted;
+        let mut region = self.flood(seed, &surface, sign)?;
+        for _ in 0..40 {
+            if region.len() < 2 * fitted {
+                break;
+            }
+            fitted = region.len();
+            let points = self.few(&self.view.vertices_of(&region));
+            let fit = refine(surface, &points, self.tolerance)?;
+            if fit.rms > self.tolerance {
+                break;
+            }
+            let next = self.flood(seed, &fit.surface, sign)?;
+            if next.len() < region.len() / 2 {
+                break;
+            }
+            surface = fit.surface;
+            region = next;
+        }
+        let hypothesis = self.view.weigh(surface, sign, region, self.tolerance);
+        (hypothesis.evidence >= 1).then_some(hypothesis)
+    }
+
+    /// The pieces that fit, connected to the seed.
+    fn flood(&mut self, seed: u32, surface: &Surface, sign: f64) -> Option<Vec<u32>> {
+        if !self.view.fits(seed, surface, sign, self.tolerance) {
+            return None;
+        }
+        self.marks.begin(self.view.pieces.count());
+        self.marks.mark(seed);
+        let mut region = vec![seed];
+        let mut at = 0;
+        while at < region.len() {
+            let piece = region[at];
+            at += 1;
+            let pieces = self.view.pieces;
+            for link in pieces.smooth_links(piece) {
+                let across = link.across(piece);
+                if self.open[across as usize]
+                    && self.marks.mark(across)
+                    && self.view.fits(across, surface, sign, self.tolerance)
+                {
+                    region.push(across);
+                }
+            }
+        }
+        Some(region)
+    }
+
+    /// The seed with two neighbours, and with a neighbour and its neighbour.
+    fn triples(&self, seed: u32) -> Vec<Vec<u32>> {
+        let near: Vec<u32> = self.neighbours(seed).take(6).collect();
+        let mut triples = Vec::new();
+        for (i, &a) in near.iter().enumerate() {
+            triples.extend(near[..i].iter().map(|&b| vec![seed, a, b]));
+        }
+        for &a in &near {
+            let beyond = self.neighbours(a).filter(|p| *p != seed && !near.contains(p));
+            triples.extend(beyond.take(3).map(|b| vec![seed, a, b]));
+        }
+        triples.truncate(MOST_TRIPLES);
+        triples
+    }
+
+    /// The pieces round each vertex of the seed.
+    fn stars(&self, seed: u32) -> Vec<Vec<u32>> {
+        let pieces = self.view.pieces;
+        let vertices = pieces.vertices.row(seed);
+        let normal = pieces.normals[seed as usize];
+        let mut stars: Vec<Vec<u32>> = vertices
+            .iter()
+            .step_by(vertices.len().div_ceil(8))
+            .map(|&vertex| {
+                let round = pieces.of_vertex.row(vertex).iter().copied();
+                round
+                    .filter(|&p| {
+                        self.open[p as usize] && pieces.normals[p as usize].dot(normal) >= STAR_COS
+                    })
+                    .collect()
+            })
+            .filter(|star: &Vec<u32>| star.len() >= 3)
+            .collect();
+        stars.sort_unstable();
+        stars.dedup();
+        stars
+    }
+
+    /// The pieces that share a vertex with the seed, and again.
+    fn rings(&mut self, seed: u32, rings: usize) -> Vec<u32> {
+        let pieces = self.view.pieces;
+        let normal = pieces.normals[seed as usize];
+        self.marks.begin(pieces.count());
+        self.marks.mark(seed);
+        let mut region = vec![seed];
+        let mut from = 0;
+        for _ in 0..rings {
+            let to = region.len();
+            for i in from..to {
+                for &vertex in pieces.vertices.row(region[i]) {
+                    for &piece in pieces.of_vertex.row(vertex) {
+                        if region.len() < MOST_IN_RING
+                            && self.open[piece as usize]
+                            && pieces.normals[piece as usize].dot(normal) >= RING_COS
+                            && self.marks.mark(piece)
+                        {
+                            region.push(piece);
+                        }
+                    }
+                }
+            }
+            from = to;
+        }
+        region
+    }
+}
+
+/// The owner of each piece, none so far.
+pub(crate) fn unowned(count: usize) -> Vec<u32> {
+    vec![NONE; count]
+}

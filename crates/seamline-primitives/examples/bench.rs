@@ -12,6 +12,8 @@ fn main() {
         let found = seamline_primitives::find(mesh.positions(), &topology);
         let name = path.file_stem().unwrap().to_string_lossy();
         eprintln!("{name} {:.0} ms {} fits {} patches", start.elapsed().as_secs_f64() * 1e3, found.fits, found.patches.len());
+        let kinds: String = found.patches.iter().map(|p| match &p.surface { Some(s) => format!("{:?} ev {} {} {:?}\n", s.kind, p.evidence, p.strong, (s.a, s.b)), None => p.form.to_string() + "\n" }).collect();
+        std::fs::write(format!("{out}/{name}.kinds"), kinds).unwrap();
         let text: String = found.of_face.iter().map(|l| format!("{l}\n")).collect();
         std::fs::write(format!("{out}/{name}.seg"), text).unwrap();
     }

@@ -98,24 +98,27 @@ fn is_strong(surface: &Surface, points: &[DVec3], apart: f64) -> bool {
         Kind::Cylinder => {
             let (u, v) = surface.axis.any_orthonormal_pair();
             let angle = |x: DVec3| (x - surface.point).dot(v).atan2((x - surface.point).dot(u));
-            levels(points.iter().map(|&x| angle(x) * surface.a), apart) >= 4
+            levels(points.iter().map(|&x| angle(x) * surface.a), apart, 0.0) >= 4
         }
-        Kind::Cone => levels(points.iter().map(|&x| surface.about_axis(x).height), apart) >= 3,
+        Kind::Cone => levels(points.iter().map(|&x| surface.about_axis(x).height), apart, LEVEL_SHARE) >= 3,
         Kind::Torus => {
             let angle = |x: DVec3| {
                 let at = surface.about_axis(x);
                 at.height.atan2(at.distance - surface.a)
             };
-            levels(points.iter().map(|&x| angle(x) * surface.b), apart) >= 4
+            levels(points.iter().map(|&x| angle(x) * surface.b), apart, 0.0) >= 4
         }
         Kind::Sphere => points.len() >= 8 && fills_space(points, apart),
     }
 }
 
-/// How many values differ by more than `apart`.
-fn levels(values: impl Iterator<Item = f64>, apart: f64) -> usize {
+/// How many values differ by more than `apart`, and by more than a share of the range: the axis of a narrow
+/// ring may tilt about the sphere it lies on, and then one circle seems to have many heights.
+fn levels(values: impl Iterator<Item = f64>, apart: f64, share: f64) -> usize {
     let mut values: Vec<f64> = values.collect();
     values.sort_unstable_by(f64::total_cmp);
+    let range = values.last().unwrap_or(&0.0) - values.first().unwrap_or(&0.0);
+    let apart = apart.max(share * range);
     let mut count = 0;
     let mut last = f64::NEG_INFINITY;
     for value in values {
@@ -126,6 +129,9 @@ fn levels(values: impl Iterator<Item = f64>, apart: f64) -> usize {
     }
     count
 }
+
+/// Share of the range of heights that two levels are apart at least.
+const LEVEL_SHARE: f64 = 0.05;
 
 /// Four levels at least along each principal axis.
 fn fills_space(points: &[DVec3], apart: f64) -> bool {
@@ -142,6 +148,6 @@ fn fills_space(points: &[DVec3], apart: f64) -> bool {
     let (_, axes) = crate::eigen::symmetric(m);
     axes.into_iter().all(|axis| {
         let axis = DVec3::from_array(axis);
-        levels(points.iter().map(|&x| (x - centre).dot(axis)), apart) >= 4
+        levels(points.iter().map(|&x| (x - centre).dot(axis)), apart, 0.0) >= 4
     })
 }

@@ -34,11 +34,16 @@ use select::{borders_speak_for, select};
 /// export, then that of kernels which store an approximation.
 const LADDER: [f64; 3] = [1e-6, 1e-5, 5e-5];
 
+const FLAT: f64 = 3e-7;
+
 /// A patch found.
 #[derive(Clone, Debug)]
 pub struct Patch {
     /// What it is; `None` for a free form.
     pub surface: Option<Surface>,
+    pub evidence: i64,
+    pub strong: bool,
+    pub form: &'static str,
 }
 
 /// The patches of a mesh.
@@ -57,7 +62,7 @@ pub fn find(positions: &[DVec3], topology: &Topology) -> Partition {
     let (centre, diagonal) = frame(positions, topology);
     let scaled: Vec<DVec3> = positions.iter().map(|&x| (x - centre) / diagonal).collect();
     let triangles = Triangles::of(&scaled, &topology.triangles);
-    let pieces = Pieces::find(&scaled, topology, &triangles, LADDER[0]);
+    let pieces = Pieces::find(&scaled, topology, &triangles, FLAT);
     let view = View {
         positions: &scaled,
         pieces: &pieces,
@@ -66,9 +71,9 @@ pub fn find(positions: &[DVec3], topology: &Topology) -> Partition {
     let mut regions = Regions::none(pieces.count());
     for (rung, &tolerance) in LADDER.iter().enumerate() {
         climb(view, topology, &mut regions, rung, tolerance, &mut fits);
+        if rung == 9 { absorb::dissolve(view, topology, &mut regions); }
+        absorb::absorb(view, &mut regions, tolerance);
     }
-    absorb::dissolve(view, topology, &mut regions);
-    absorb::absorb(view, &mut regions, LADDER[0]);
     let trusted = trust::trusted(view, topology, &regions);
     let doubtful: Vec<u32> = regions.alive().filter(|&r| !trusted[r as usize]).collect();
     for region in doubtful {
@@ -87,6 +92,15 @@ pub fn find(positions: &[DVec3], topology: &Topology) -> Partition {
                     Form::Surface(region) => Some(regions.all[*region as usize].surface),
                     _ => None,
                 },
+                evidence: match form {
+                    Form::Surface(region) => regions.all[*region as usize].evidence,
+                    _ => 0,
+                },
+                strong: match form {
+                    Form::Surface(region) => regions.all[*region as usize].strong,
+                    _ => false,
+                },
+                form: if *form == Form::Plane { "Plane" } else { "Free" },
             })
             .collect(),
         fits,

@@ -1,43 +1,15 @@
-//! Small changes after the selection: regions taken back whose borders explain nothing, and pieces that lie
-//! on a larger neighbour's surface after all.
+//! After the selection: regions and pieces that lie on a larger neighbour's surface after all.
 
 use std::collections::{BTreeMap, HashSet};
-
-use seamline_mesh::Topology;
 
 use crate::hypothesis::{Hypothesis, View};
 use crate::pieces::NONE;
 use crate::regions::Regions;
 
-/// Share of the smooth border against something unexplained from which a small region is dissolved.
-const UNEXPLAINED_SHARE: f64 = 0.5;
-/// Regions of fewer pieces are dissolved so.
-const FEW_PIECES: usize = 25;
-/// And these if hardly anything is tangent to them either.
-const SOME_PIECES: usize = 200;
-const TANGENT_SHARE: f64 = 0.2;
-
 /// Least cosine between the normals of a lone triangle and of the surface it lies on: at the pole of a
 /// coarse sphere triangles meet at 60 degrees.
 const LONE_TRIANGLE_COS: f64 = 0.6;
 const PIECE_COS: f64 = 0.85;
-
-/// Sets regions free that end against something unexplained.
-pub(crate) fn dissolve(view: View, topology: &Topology, regions: &mut Regions) {
-    let alive: Vec<u32> = regions.alive().collect();
-    for region in alive {
-        let own = &regions.all[region as usize];
-        let owner = &regions.owner;
-        let border = regions.border(view, topology, own, |p| owner[p as usize] == region);
-        let smooth = border.smooth();
-        let unexplained = border.unexplained > UNEXPLAINED_SHARE * smooth;
-        let few = own.pieces.len() < FEW_PIECES;
-        let some = own.pieces.len() < SOME_PIECES && border.tangent < TANGENT_SHARE * smooth;
-        if unexplained && (few || some) {
-            regions.dissolve(region);
-        }
-    }
-}
 
 /// Gives regions and unowned pieces that lie on the surface of a larger neighbour to it, over walls too.
 pub(crate) fn absorb(view: View, regions: &mut Regions, tolerance: f64) {

@@ -6,8 +6,11 @@
 mod absorb;
 mod certain;
 mod eigen;
+mod crease_angles;
+mod creases;
 mod guess;
 mod hypothesis;
+mod linear;
 mod parts;
 mod pieces;
 mod refine;
@@ -71,7 +74,6 @@ pub fn find(positions: &[DVec3], topology: &Topology) -> Partition {
     let mut regions = Regions::none(pieces.count());
     for (rung, &tolerance) in LADDER.iter().enumerate() {
         climb(view, topology, &mut regions, rung, tolerance, &mut fits);
-        if rung == 9 { absorb::dissolve(view, topology, &mut regions); }
         absorb::absorb(view, &mut regions, tolerance);
     }
     let trusted = trust::trusted(view, topology, &regions);
@@ -81,9 +83,14 @@ pub fn find(positions: &[DVec3], topology: &Topology) -> Partition {
     }
     let mut parts = parts::parts(view, topology, &regions, LADDER[0]);
     parts::join_islands(view, &regions, &mut parts);
-    let of_face = pieces.of_face.iter();
+    let mut of_face: Vec<u32> = pieces
+        .of_face
+        .iter()
+        .map(|&p| parts.of_piece[p as usize])
+        .collect();
+    creases::split(&scaled, topology, &triangles, &parts.forms, &mut of_face);
     Partition {
-        of_face: of_face.map(|&p| parts.of_piece[p as usize]).collect(),
+        of_face,
         patches: parts
             .forms
             .iter()

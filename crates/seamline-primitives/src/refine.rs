@@ -2,6 +2,7 @@
 
 use glam::DVec3;
 
+use crate::linear::solve;
 use crate::surface::{Kind, Surface};
 
 /// A surface and how far its points are from it.
@@ -142,39 +143,6 @@ fn damped(surface: &Surface, mut matrix: Matrix, lambda: f64) -> Matrix {
         row[i] += lambda * row[i] + 1e-13 * trace;
     }
     matrix
-}
-
-/// Cholesky's method on the lower half. `None` if the matrix is not positive definite.
-fn solve(mut m: Matrix, mut right: [f64; 8]) -> Option<[f64; 8]> {
-    for i in 0..8 {
-        for j in 0..=i {
-            let mut sum = m[i][j];
-            for k in 0..j {
-                sum -= m[i][k] * m[j][k];
-            }
-            if i == j {
-                if sum <= 0.0 {
-                    return None;
-                }
-                m[i][i] = sum.sqrt();
-            } else {
-                m[i][j] = sum / m[j][j];
-            }
-        }
-    }
-    for i in 0..8 {
-        for k in 0..i {
-            right[i] -= m[i][k] * right[k];
-        }
-        right[i] /= m[i][i];
-    }
-    for i in (0..8).rev() {
-        for k in i + 1..8 {
-            right[i] -= m[k][i] * right[k];
-        }
-        right[i] /= m[i][i];
-    }
-    Some(right)
 }
 
 fn stepped(surface: &Surface, step: [f64; 8]) -> Surface {

@@ -63,9 +63,7 @@ impl Regions {
     }
 
     /// Sets the pieces of a region free, and gives it back.
-    #[track_caller]
     pub fn dissolve(&mut self, region: u32) -> Hypothesis {
-        if std::env::var("DBG").is_ok() { let h = &self.all[region as usize]; eprintln!("dissolve {region} {:?} ev {} pieces {} by {}", h.surface.kind, h.evidence, h.pieces.len(), std::panic::Location::caller().file()); }
         let gone = &mut self.all[region as usize];
         let pieces = std::mem::take(&mut gone.pieces);
         for &piece in &pieces {

@@ -5,7 +5,6 @@ use glam::DVec3;
 
 use crate::guess::{Neighbourhood, guesses};
 use crate::hypothesis::{Hypothesis, View};
-use crate::pieces::NONE;
 use crate::refine::refine;
 use crate::surface::{Kind, Surface};
 
@@ -18,6 +17,8 @@ const MOST_IN_RING: usize = 60;
 const MOST_TRIPLES: usize = 12;
 /// Most vertices a fit looks at; more do not make it better.
 const MOST_POINTS: usize = 400;
+/// How much farther from the surface pieces may lie that a fit is tried on.
+const WIDER: f64 = 4.0;
 /// Pieces a strong hypothesis must have to spare its pieces from being seeds.
 const COVERS: usize = 8;
 
@@ -199,21 +200,29 @@ impl<'a> Search<'a> {
         let gradient = surface.gradient(self.view.pieces.centroids[seed as usize]);
         let sign = gradient.dot(normal).signum();
         let mut fitted = fitted;
-        let mut region = self.flood(seed, &surface, sign)?;
+        let mut region = self.flood(seed, &surface, sign, self.tolerance, usize::MAX)?;
         for _ in 0..40 {
-            if region.len() < 2 * fitted {
+            // Small regions determine little of what lies beyond: a wider look, believed only once the fit to
+            // all of it is exact again.
+            let wider = if region.len() < 2 * fitted {
+                let most = (2 * fitted).max(region.len() + 2);
+                self.flood(seed, &surface, sign, WIDER * self.tolerance, most)?
+            } else {
+                region.clone()
+            };
+            if wider.len() <= fitted {
                 break;
             }
-            fitted = region.len();
-            let points = self.few(&self.view.vertices_of(&region));
+            let points = self.few(&self.view.vertices_of(&wider));
             let fit = refine(surface, &points, self.tolerance)?;
             if fit.rms > self.tolerance {
                 break;
             }
-            let next = self.flood(seed, &fit.surface, sign)?;
-            if next.len() < region.len() / 2 {
+            let next = self.flood(seed, &fit.surface, sign, self.tolerance, usize::MAX)?;
+            if next.len() <= region.len() {
                 break;
             }
+            fitted = wider.len();
             surface = fit.surface;
             region = next;
         }
@@ -222,15 +231,22 @@ impl<'a> Search<'a> {
     }
 
     /// The pieces that fit, connected to the seed.
-    fn flood(&mut self, seed: u32, surface: &Surface, sign: f64) -> Option<Vec<u32>> {
-        if !self.view.fits(seed, surface, sign, self.tolerance) {
+    fn flood(
+        &mut self,
+        seed: u32,
+        surface: &Surface,
+        sign: f64,
+        tolerance: f64,
+        most: usize,
+    ) -> Option<Vec<u32>> {
+        if !self.view.fits(seed, surface, sign, tolerance) {
             return None;
         }
         self.marks.begin(self.view.pieces.count());
         self.marks.mark(seed);
         let mut region = vec![seed];
         let mut at = 0;
-        while at < region.len() {
+        while at < region.len() && region.len() < most {
             let piece = region[at];
             at += 1;
             let pieces = self.view.pieces;
@@ -238,7 +254,7 @@ impl<'a> Search<'a> {
                 let across = link.across(piece);
                 if self.open[across as usize]
                     && self.marks.mark(across)
-                    && self.view.fits(across, surface, sign, self.tolerance)
+                    && self.view.fits(across, surface, sign, tolerance)
                 {
                     region.push(across);
                 }
@@ -312,9 +328,4 @@ impl<'a> Search<'a> {
         }
         region
     }
-}
-
-/// The owner of each piece, none so far.
-pub(crate) fn unowned(count: usize) -> Vec<u32> {
-    vec![NONE; count]
 }

@@ -85,10 +85,8 @@ pub(crate) fn select(
                 waiting[i] = Some(part);
             }
         } else if believe(regions, &hypothesis) {
-            if std::env::var("DBG").is_ok() { eprintln!("accept {:?} strong {} ev {} pieces {} tol {tolerance} {:?}", hypothesis.surface.kind, hypothesis.strong, hypothesis.evidence, hypothesis.pieces.len(), hypothesis.surface); }
             regions.accept(hypothesis);
         } else {
-            if std::env::var("DBG").is_ok() && hypothesis.pieces.len() > 20 { eprintln!("REJECT {:?} strong {} ev {} pieces {} tol {tolerance} {:?}", hypothesis.surface.kind, hypothesis.strong, hypothesis.evidence, hypothesis.pieces.len(), hypothesis.surface); }
             rejected.push(hypothesis);
         }
     }

@@ -2,7 +2,9 @@
 
 use glam::DVec3;
 
+use crate::guess::{Neighbourhood, guesses};
 use crate::pieces::Pieces;
+use crate::refine::refine;
 use crate::surface::{Kind, Surface};
 
 /// A surface with the connected pieces that lie on it.
@@ -14,6 +16,8 @@ pub(crate) struct Hypothesis {
     pub pieces: Vec<u32>,
     /// Distinct vertices less degrees of freedom.
     pub evidence: i64,
+    /// How far its vertices may lie from it.
+    pub tolerance: f64,
     /// Is it over-determined across rows, so that chance cannot explain the fit?
     pub strong: bool,
 }
@@ -83,6 +87,7 @@ impl View<'_> {
             sign,
             pieces,
             evidence,
+            tolerance,
         }
     }
 }
@@ -108,7 +113,7 @@ fn is_strong(surface: &Surface, points: &[DVec3], apart: f64) -> bool {
             };
             levels(points.iter().map(|&x| angle(x) * surface.b), apart, 0.0) >= 4
         }
-        Kind::Sphere => points.len() >= 8 && fills_space(points, apart),
+        Kind::Sphere => points.len() >= 8 && !lies_on_cone(surface, points, apart),
     }
 }
 
@@ -133,21 +138,22 @@ fn levels(values: impl Iterator<Item = f64>, apart: f64, share: f64) -> usize {
 /// Share of the range of heights that two levels are apart at least.
 const LEVEL_SHARE: f64 = 0.05;
 
-/// Four levels at least along each principal axis.
-fn fills_space(points: &[DVec3], apart: f64) -> bool {
-    let centre = points.iter().sum::<DVec3>() / points.len() as f64;
-    let mut m = [[0.0; 3]; 3];
-    for x in points {
-        let x = (*x - centre).to_array();
-        for i in 0..3 {
-            for j in 0..3 {
-                m[i][j] += x[i] * x[j];
-            }
-        }
-    }
-    let (_, axes) = crate::eigen::symmetric(m);
-    axes.into_iter().all(|axis| {
-        let axis = DVec3::from_array(axis);
-        levels(points.iter().map(|&x| (x - centre).dot(axis)), apart, 0.0) >= 4
-    })
+/// Do the points of a sphere lie on two parallel circles, and so on a cone too?
+fn lies_on_cone(surface: &Surface, points: &[DVec3], apart: f64) -> bool {
+    let few: Vec<DVec3> = points
+        .iter()
+        .copied()
+        .step_by(points.len().div_ceil(100))
+        .collect();
+    let normals: Vec<DVec3> = few.iter().map(|&x| surface.gradient(x)).collect();
+    let of = Neighbourhood {
+        normals: &normals,
+        centroids: &few,
+        points: &few,
+    };
+    // On two circles normals do not tell the axis, the points do: their plane's, and that of one circle.
+    guesses(Kind::Cone, &of)
+        .into_iter()
+        .filter_map(|guess| refine(guess, &few, apart / 4.0))
+        .any(|fit| fit.rms <= apart / 4.0)
 }

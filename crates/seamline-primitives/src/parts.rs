@@ -31,6 +31,8 @@ pub(crate) struct Parts {
 
 /// How many times larger than each smooth neighbour a flat piece is a plane of its own.
 const MUCH_LARGER: f64 = 4.0;
+/// Share of its smooth border along which a flat piece that is a plane of its own touches accepted surfaces.
+const TANGENT_SHARE: f64 = 0.5;
 
 /// Groups the pieces: a part for each region and for each plane, and the rest united over what is no wall.
 pub(crate) fn parts(view: View, topology: &Topology, regions: &Regions, tolerance: f64) -> Parts {
@@ -84,15 +86,15 @@ fn is_plane(
     if vertices.len() >= 5 && is_certain_plane(view.positions, vertices, tolerance) {
         return true;
     }
-    let area = pieces.areas[piece as usize];
-    let mut largest = 0.0f64;
+    let [mut largest, mut tangent, mut smooth] = [0.0f64; 3];
     for &link in pieces.around.row(piece) {
         let at = &pieces.links[link as usize];
-        let across = at.across(piece);
-        let owner = regions.owner[across as usize];
         if at.wall {
             continue;
         }
+        smooth += at.length;
+        let across = at.across(piece);
+        let owner = regions.owner[across as usize];
         if owner == NONE {
             if !pieces.certain[across as usize] {
                 largest = largest.max(pieces.areas[across as usize]);
@@ -100,10 +102,10 @@ fn is_plane(
         } else if regions.ending(view, topology, &regions.all[owner as usize], across, link)
             == Ending::Tangent
         {
-            return true;
+            tangent += at.length;
         }
     }
-    area > MUCH_LARGER * largest
+    pieces.areas[piece as usize] > MUCH_LARGER * largest || tangent > TANGENT_SHARE * smooth
 }
 
 /// A part on the way to others.

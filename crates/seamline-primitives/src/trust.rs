@@ -10,6 +10,8 @@ use crate::regions::{Ending, Regions};
 
 /// Evidence from which no border is asked.
 const BEYOND_DOUBT: i64 = 200;
+/// Tolerance up to which that holds: farther out a free form comes near anything.
+const EXACT: f64 = 1e-6;
 /// Evidence below which walls do not count: each tile of a narrow band between two walls has walls on most of
 /// its border.
 const SMALL: i64 = 25;
@@ -53,7 +55,7 @@ fn is_natural(
     region: u32,
 ) -> bool {
     let own = &regions.all[region as usize];
-    if own.evidence >= BEYOND_DOUBT {
+    if own.evidence >= BEYOND_DOUBT && own.tolerance <= EXACT {
         return true;
     }
     let [mut walls, mut natural, mut whole] = [0.0; 3];

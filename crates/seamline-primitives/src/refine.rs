@@ -36,7 +36,7 @@ pub(crate) fn refine(guess: Surface, points: &[DVec3], tolerance: f64) -> Option
         if rms(squares) < goal {
             break;
         }
-        let hopeless = rms(squares) > near && rms(squares) > 0.2 * before[0];
+        let hopeless = rms(squares) > near && rms(squares) > 0.5 * before[0];
         if hopeless || rms(squares) > 0.99 * before[1] {
             break;
         }

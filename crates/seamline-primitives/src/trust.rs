@@ -10,8 +10,9 @@ use crate::regions::{Ending, Regions};
 
 /// Evidence from which no border is asked.
 const BEYOND_DOUBT: i64 = 200;
-/// Tolerance up to which that holds: farther out a free form comes near anything.
+/// Tolerance up to which that holds. Farther out a free form comes near anything, and more is asked.
 const EXACT: f64 = 1e-6;
+const BEYOND_DOUBT_IF_NEAR: i64 = 1000;
 /// Evidence below which walls do not count: each tile of a narrow band between two walls has walls on most of
 /// its border.
 const SMALL: i64 = 25;
@@ -55,7 +56,12 @@ fn is_natural(
     region: u32,
 ) -> bool {
     let own = &regions.all[region as usize];
-    if own.evidence >= BEYOND_DOUBT && own.tolerance <= EXACT {
+    let beyond_doubt = if own.tolerance <= EXACT {
+        BEYOND_DOUBT
+    } else {
+        BEYOND_DOUBT_IF_NEAR
+    };
+    if own.evidence >= beyond_doubt {
         return true;
     }
     let [mut walls, mut natural, mut whole] = [0.0; 3];

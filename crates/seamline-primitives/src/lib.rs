@@ -77,6 +77,20 @@ pub fn find(positions: &[DVec3], topology: &Topology) -> Partition {
         absorb::absorb(view, &mut regions, tolerance);
     }
     let trusted = trust::trusted(view, topology, &regions);
+    if let Ok(path) = std::env::var("DUMP") {
+        let mut text = String::new();
+        for region in regions.alive() {
+            let h = &regions.all[region as usize];
+            let vs = view.vertices_of(&h.pieces);
+            let mut d: Vec<f64> = vs.iter().map(|&v| h.surface.distance(scaled[v as usize]).abs()).collect();
+            d.sort_by(f64::total_cmp);
+            let rms = (d.iter().map(|x| x * x).sum::<f64>() / d.len() as f64).sqrt();
+            let n = trust::shares(view, topology, &regions, &trusted, region);
+            let f: Vec<String> = h.pieces.iter().flat_map(|&p| pieces.faces.row(p)).map(|f| f.to_string()).collect();
+            text += &format!("{:?} {} {} {:e} {:e} {:e} {} {:.3} {:.3} {:.5} {:.5} {} {}\n", h.surface.kind, h.evidence, h.strong, rms, d[d.len()-1], h.tolerance, trusted[region as usize], n.0, n.1, h.surface.a, h.surface.b, h.pieces.len(), f.join(","));
+        }
+        std::fs::write(path, text).unwrap();
+    }
     let doubtful: Vec<u32> = regions.alive().filter(|&r| !trusted[r as usize]).collect();
     for region in doubtful {
         regions.dissolve(region);

@@ -17,6 +17,8 @@ const MOST_IN_RING: usize = 60;
 const MOST_TRIPLES: usize = 12;
 /// Most vertices a fit looks at; more do not make it better.
 const MOST_POINTS: usize = 400;
+/// A grown surface is fitted once more, to this share of the tolerance.
+const FINAL_SHARE: f64 = 0.1;
 /// How much farther from the surface pieces may lie that a fit is tried on.
 const WIDER: f64 = 4.0;
 /// Pieces a strong hypothesis must have to spare its pieces from being seeds.
@@ -225,6 +227,12 @@ impl<'a> Search<'a> {
             fitted = wider.len();
             surface = fit.surface;
             region = next;
+        }
+        let points = self.few(&self.view.vertices_of(&region));
+        if let Some(fit) = refine(surface, &points, FINAL_SHARE * self.tolerance)
+            && fit.rms <= self.tolerance
+        {
+            surface = fit.surface;
         }
         let hypothesis = self.view.weigh(surface, sign, region, self.tolerance);
         (hypothesis.evidence >= 1).then_some(hypothesis)

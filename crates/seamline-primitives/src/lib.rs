@@ -170,7 +170,9 @@ fn climb(
         (1, _) => 40,
         _ => 100,
     };
-    let enough = |h: &Hypothesis| h.strong && h.evidence >= least(h.surface.kind);
+    let enough = |h: &Hypothesis| {
+        h.strong && (rung > 0 || h.is_exact()) && h.evidence >= least(h.surface.kind)
+    };
     let mut rest = select(view, regions, found, tolerance, |_, h| enough(h));
     if rung == 0 {
         for _ in 0..3 {

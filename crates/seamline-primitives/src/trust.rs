@@ -8,11 +8,9 @@ use crate::hypothesis::View;
 use crate::pieces::NONE;
 use crate::regions::{Ending, Regions};
 
-/// Evidence from which no border is asked.
-const BEYOND_DOUBT: i64 = 200;
-/// Tolerance up to which that holds. Farther out a free form comes near anything, and more is asked.
-const EXACT: f64 = 1e-6;
-const BEYOND_DOUBT_IF_NEAR: i64 = 1000;
+/// Evidence from which no border is asked: of a surface its vertices lie on exactly, and of one they come near.
+const ENOUGH_IF_EXACT: i64 = 6;
+const BEYOND_DOUBT: i64 = 1000;
 /// Evidence below which walls do not count: each tile of a narrow band between two walls has walls on most of
 /// its border.
 const SMALL: i64 = 25;
@@ -56,12 +54,8 @@ fn is_natural(
     region: u32,
 ) -> bool {
     let own = &regions.all[region as usize];
-    let beyond_doubt = if own.tolerance <= EXACT {
-        BEYOND_DOUBT
-    } else {
-        BEYOND_DOUBT_IF_NEAR
-    };
-    if own.evidence >= beyond_doubt {
+    let exact = own.strong && own.is_exact() && own.evidence >= ENOUGH_IF_EXACT;
+    if exact || own.evidence >= BEYOND_DOUBT {
         return true;
     }
     let [mut walls, mut natural, mut whole] = [0.0; 3];

@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use crate::guess::{Neighbourhood, guesses};
 use crate::pieces::Pieces;
-use crate::refine::refine;
+use crate::refine::refine_patiently;
 use crate::surface::{Kind, Surface};
 
 /// A surface with the connected pieces that lie on it.
@@ -68,6 +68,16 @@ impl View<'_> {
                 .all(|&v| surface.distance(self.positions[v as usize]).abs() <= tolerance)
     }
 
+    /// Do the vertices of a piece lie in the plane of its centroid and normal?
+    pub fn is_flat(&self, piece: u32, tolerance: f64) -> bool {
+        let normal = self.pieces.normals[piece as usize];
+        let centroid = self.pieces.centroids[piece as usize];
+        let vertices = self.pieces.vertices.row(piece).iter();
+        vertices
+            .map(|&v| (self.positions[v as usize] - centroid).dot(normal).abs())
+            .all(|away| away <= tolerance)
+    }
+
     /// Distinct vertices of pieces.
     pub fn vertices_of(&self, pieces: &[u32]) -> Vec<u32> {
         let rows = pieces.iter().map(|&p| self.pieces.vertices.row(p));
@@ -97,7 +107,11 @@ impl View<'_> {
             .collect();
         let squares: f64 = points.iter().map(|&x| surface.distance(x).powi(2)).sum();
         let strong = match surface.kind {
-            Kind::Sphere => points.len() >= 8 && !self.lie_on_a_cone(&pieces, &points, tolerance),
+            Kind::Sphere => {
+                points.len() >= 8
+                    && fills_space(&points, 4.0 * tolerance)
+                    && !self.lie_on_a_cone(&pieces, &points, tolerance)
+            }
             _ => is_strong(&surface, &points, 4.0 * tolerance),
         };
         Hypothesis {
@@ -129,7 +143,7 @@ impl View<'_> {
         };
         guesses(Kind::Cone, &of)
             .into_iter()
-            .filter_map(|guess| refine(guess, &few, tolerance))
+            .filter_map(|guess| refine_patiently(guess, &few, tolerance))
             .any(|fit| fit.rms <= tolerance)
     }
 }
@@ -178,3 +192,26 @@ fn levels(values: impl Iterator<Item = f64>, apart: f64, share: f64) -> usize {
 
 /// Share of the range of heights that two levels are apart at least.
 const LEVEL_SHARE: f64 = 0.05;
+
+/// Four levels at least along each principal axis?
+fn fills_space(points: &[DVec3], apart: f64) -> bool {
+    let centre = points.iter().sum::<DVec3>() / points.len() as f64;
+    let mut m = [[0.0; 3]; 3];
+    for x in points {
+        let x = (*x - centre).to_array();
+        for i in 0..3 {
+            for j in 0..3 {
+                m[i][j] += x[i] * x[j];
+            }
+        }
+    }
+    let (_, axes) = crate::eigen::symmetric(m);
+    axes.into_iter().all(|axis| {
+        let axis = DVec3::from_array(axis);
+        levels(
+            points.iter().map(|&x| (x - centre).dot(axis)),
+            apart,
+            LEVEL_SHARE,
+        ) >= 4
+    })
+}

@@ -37,7 +37,8 @@ use select::{borders_speak_for, select};
 /// export, then that of kernels which store an approximation.
 const LADDER: [f64; 3] = [1e-6, 1e-5, 5e-5];
 
-const FLAT: f64 = 3e-7;
+/// How flat the pieces are, as a share of the tolerance.
+const FLAT: f64 = 0.3;
 
 /// A patch found.
 #[derive(Clone, Debug)]
@@ -65,17 +66,40 @@ pub fn find(positions: &[DVec3], topology: &Topology) -> Partition {
     let (centre, diagonal) = frame(positions, topology);
     let scaled: Vec<DVec3> = positions.iter().map(|&x| (x - centre) / diagonal).collect();
     let triangles = Triangles::of(&scaled, &topology.triangles);
-    let pieces = Pieces::find(&scaled, topology, &triangles, FLAT);
+    let mut fits = 0;
+    let nothing = vec![NONE; triangles.areas.len()];
+    let mut pieces = Pieces::find(&scaled, topology, &triangles, FLAT * LADDER[0], &nothing, 7);
+    let mut regions = Regions::none(pieces.count());
+    for (rung, &tolerance) in LADDER.iter().enumerate() {
+        if rung > 0 {
+            let settled = |&piece: &u32| {
+                let taken = regions.owner[piece as usize] != NONE || pieces.certain[piece as usize];
+                if taken { piece } else { NONE }
+            };
+            let settled: Vec<u32> = pieces.of_face.iter().map(settled).collect();
+            let flat = FLAT * tolerance;
+            let next = Pieces::find(&scaled, topology, &triangles, flat, &settled, 25);
+            let was = &pieces;
+            let mut next = next;
+            for (piece, certain) in next.certain.iter_mut().enumerate() {
+                let face = next.faces.row(piece as u32)[0];
+                *certain |= was.certain[was.of_face[face as usize] as usize];
+            }
+
+            regions = regions.moved(&pieces, &next);
+            pieces = next;
+        }
+        let view = View {
+            positions: &scaled,
+            pieces: &pieces,
+        };
+        climb(view, topology, &mut regions, rung, tolerance, &mut fits);
+        absorb::absorb(view, &mut regions, tolerance);
+    }
     let view = View {
         positions: &scaled,
         pieces: &pieces,
     };
-    let mut fits = 0;
-    let mut regions = Regions::none(pieces.count());
-    for (rung, &tolerance) in LADDER.iter().enumerate() {
-        climb(view, topology, &mut regions, rung, tolerance, &mut fits);
-        absorb::absorb(view, &mut regions, tolerance);
-    }
     let trusted = trust::trusted(view, topology, &regions);
     if let Ok(path) = std::env::var("DUMP") {
         let mut text = String::new();

@@ -83,7 +83,10 @@ fn is_plane(
         return true;
     }
     let vertices = pieces.vertices.row(piece);
-    if vertices.len() >= 5 && is_certain_plane(view.positions, vertices, tolerance) {
+    if vertices.len() >= 5
+        && view.is_flat(piece, tolerance)
+        && is_certain_plane(view.positions, vertices, tolerance)
+    {
         return true;
     }
     let [mut largest, mut tangent, mut smooth] = [0.0f64; 3];

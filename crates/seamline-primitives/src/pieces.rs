@@ -99,14 +99,17 @@ impl Triangles {
 
 impl Pieces {
     /// Finds the pieces: from the largest triangle down, each takes in the triangles connected to it whose
-    /// corners lie within `tolerance` of its plane and whose normals agree, as far as a sliver's can.
+    /// corners lie within `tolerance` of its plane and whose normals agree, as far as a sliver's can. Faces with
+    /// a number in `settled` are together with those of the same number, and with no others.
     pub fn find(
         positions: &[DVec3],
         topology: &Topology,
         triangles: &Triangles,
         tolerance: f64,
+        settled: &[u32],
+        fewest: usize,
     ) -> Self {
-        let of_face = grow_flat(positions, topology, triangles, tolerance);
+        let of_face = grow_flat(positions, topology, triangles, tolerance, settled);
         let count = of_face.iter().max().map_or(0, |&last| last as usize + 1);
         let mut normals = vec![DVec3::ZERO; count];
         let mut centroids = vec![DVec3::ZERO; count];
@@ -148,10 +151,11 @@ impl Pieces {
             ..Self::default()
         };
         pieces.link(positions, topology);
+        // Pieces settled as planes before have their numbers at the head.
         pieces.certain = (0..count as u32)
             .map(|piece| {
                 let vertices = pieces.vertices.row(piece);
-                vertices.len() >= 7 && is_certain_plane(positions, vertices, tolerance)
+                vertices.len() >= fewest && is_certain_plane(positions, vertices, tolerance)
             })
             .collect();
         pieces
@@ -216,12 +220,21 @@ fn grow_flat(
     topology: &Topology,
     triangles: &Triangles,
     tolerance: f64,
+    settled: &[u32],
 ) -> Vec<u32> {
-    let mut of_face = vec![NONE; triangles.areas.len()];
-    let mut order: Vec<u32> = (0..of_face.len() as u32).collect();
+    let mut numbers: Vec<u32> = settled.iter().copied().filter(|&n| n != NONE).collect();
+    numbers.sort_unstable();
+    numbers.dedup();
+    let mut of_face: Vec<u32> = settled
+        .iter()
+        .map(|n| numbers.binary_search(n).map_or(NONE, |row| row as u32))
+        .collect();
+    let mut order: Vec<u32> = (0..of_face.len() as u32)
+        .filter(|&f| of_face[f as usize] == NONE)
+        .collect();
     let by_area = |&f: &u32| triangles.areas[f as usize];
     order.sort_by(|a, b| by_area(b).total_cmp(&by_area(a)));
-    let mut count = 0;
+    let mut count = numbers.len() as u32;
     let mut open = Vec::new();
     for seed in order {
         if of_face[seed as usize] != NONE {

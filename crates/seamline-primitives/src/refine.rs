@@ -19,6 +19,15 @@ pub(crate) struct Fit {
 /// falling fast, and it is given up: nearly all time goes into fits that fail. `None` if a number left
 /// the finite.
 pub(crate) fn refine(guess: Surface, points: &[DVec3], tolerance: f64) -> Option<Fit> {
+    descend(guess, points, tolerance, 0.5)
+}
+
+/// As [`refine`], but does not give up while distances fall at all.
+pub(crate) fn refine_patiently(guess: Surface, points: &[DVec3], tolerance: f64) -> Option<Fit> {
+    descend(guess, points, tolerance, 0.99)
+}
+
+fn descend(guess: Surface, points: &[DVec3], tolerance: f64, falls_to: f64) -> Option<Fit> {
     let (centre, radius) = extent(points)?;
     let goal = 0.02 * tolerance / radius;
     let near = tolerance / radius;
@@ -36,7 +45,7 @@ pub(crate) fn refine(guess: Surface, points: &[DVec3], tolerance: f64) -> Option
         if rms(squares) < goal {
             break;
         }
-        let hopeless = rms(squares) > near && rms(squares) > 0.5 * before[0];
+        let hopeless = rms(squares) > near && rms(squares) > falls_to * before[0];
         if hopeless || rms(squares) > 0.99 * before[1] {
             break;
         }

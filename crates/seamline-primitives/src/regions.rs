@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use crate::hypothesis::{Hypothesis, View};
-use crate::pieces::{Link, NONE};
+use crate::pieces::{Link, NONE, Pieces};
 
 /// Normals this near are one direction, where two accepted surfaces meet.
 const TANGENT: f64 = 2.0 / 180.0 * PI;
@@ -73,6 +73,22 @@ impl Regions {
             pieces,
             ..gone.clone()
         }
+    }
+
+    /// The same regions on other pieces, of which each lies in one of the old ones.
+    pub fn moved(mut self, old: &Pieces, new: &Pieces) -> Self {
+        self.owner = vec![NONE; new.count()];
+        for (number, region) in self.all.iter_mut().enumerate() {
+            let faces = region.pieces.iter().flat_map(|&p| old.faces.row(p));
+            let mut pieces: Vec<u32> = faces.map(|&f| new.of_face[f as usize]).collect();
+            pieces.sort_unstable();
+            pieces.dedup();
+            for &piece in &pieces {
+                self.owner[piece as usize] = number as u32;
+            }
+            region.pieces = pieces;
+        }
+        self
     }
 
     /// Numbers of the regions that have pieces.

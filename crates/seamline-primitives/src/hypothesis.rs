@@ -106,14 +106,12 @@ impl View<'_> {
             .map(|&v| self.positions[v as usize])
             .collect();
         let squares: f64 = points.iter().map(|&x| surface.distance(x).powi(2)).sum();
-        let strong = match surface.kind {
-            Kind::Sphere => {
-                points.len() >= 8
-                    && fills_space(&points, 4.0 * tolerance)
-                    && !self.lie_on_a_cone(&pieces, &points, tolerance)
-            }
-            _ => is_strong(&surface, &points, 4.0 * tolerance),
-        };
+        let apart = 4.0 * tolerance;
+        let strong = is_strong(&surface, &points, apart)
+            && match surface.kind {
+                Kind::Plane | Kind::Cylinder | Kind::Cone => true,
+                Kind::Sphere | Kind::Torus => !self.lie_on_a_cone(&pieces, &points, tolerance),
+            };
         Hypothesis {
             rms: (squares / points.len() as f64).sqrt(),
             strong,
@@ -125,7 +123,7 @@ impl View<'_> {
         }
     }
 
-    /// Do the vertices of a sphere's pieces lie on a cone as well? Those of one strip of revolution do.
+    /// Do the vertices of a sphere's or a torus' pieces lie on a cone as well? Those of one strip of revolution do.
     fn lie_on_a_cone(&self, pieces: &[u32], points: &[DVec3], tolerance: f64) -> bool {
         let pick = |of: &[DVec3]| -> Vec<DVec3> {
             let few = pieces.iter().step_by(pieces.len().div_ceil(100));
@@ -155,7 +153,8 @@ const NORMALS_AGREE: f64 = 0.85;
 /// any strip of any surface of revolution is an exact cone, and any two strips an exact torus.
 fn is_strong(surface: &Surface, points: &[DVec3], apart: f64) -> bool {
     match surface.kind {
-        Kind::Plane | Kind::Sphere => true,
+        Kind::Plane => true,
+        Kind::Sphere => points.len() >= 8 && fills_space(points, apart),
         Kind::Cylinder => {
             let (u, v) = surface.axis.any_orthonormal_pair();
             let angle = |x: DVec3| (x - surface.point).dot(v).atan2((x - surface.point).dot(u));

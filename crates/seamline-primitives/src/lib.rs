@@ -39,6 +39,7 @@ const LADDER: [f64; 3] = [1e-6, 1e-5, 5e-5];
 
 /// How flat the pieces are, as a share of the tolerance.
 const FLAT: f64 = 0.3;
+const FLAT2: f64 = 0.3;
 
 /// A patch found.
 #[derive(Clone, Debug)]
@@ -77,7 +78,7 @@ pub fn find(positions: &[DVec3], topology: &Topology) -> Partition {
                 if taken { piece } else { NONE }
             };
             let settled: Vec<u32> = pieces.of_face.iter().map(settled).collect();
-            let flat = FLAT * tolerance;
+            let flat = FLAT2 * tolerance;
             let next = Pieces::find(&scaled, topology, &triangles, flat, &settled, 25);
             let was = &pieces;
             let mut next = next;

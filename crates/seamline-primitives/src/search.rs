@@ -163,7 +163,7 @@ impl<'a> Search<'a> {
             let Some(fit) = refine(guess, &points, self.tolerance) else {
                 continue;
             };
-            if fit.rms > self.tolerance {
+            if fit.rms > self.tolerance || is_degenerate(&fit.surface) {
                 continue;
             }
             let slot = &mut best[kind as usize - 1];
@@ -337,3 +337,11 @@ impl<'a> Search<'a> {
         region
     }
 }
+
+/// Is a torus a sphere, its circle hardly more than a point?
+fn is_degenerate(surface: &Surface) -> bool {
+    surface.kind == Kind::Torus && surface.a.abs() < LEAST_TORUS * surface.b.abs()
+}
+
+/// Least major radius of a torus, in minor radii.
+const LEAST_TORUS: f64 = 0.02;

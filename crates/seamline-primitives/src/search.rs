@@ -1,6 +1,9 @@
 //! The search for surfaces: from each smooth piece not yet explained, fits to small neighbourhoods, grown as
 //! far as they hold.
 
+use std::collections::HashSet;
+use std::hash::{DefaultHasher, Hash, Hasher};
+
 use glam::DVec3;
 
 use crate::guess::{Neighbourhood, guesses};
@@ -51,6 +54,8 @@ pub(crate) struct Search<'a> {
     /// May a piece take part?
     open: &'a [bool],
     marks: Marks,
+    /// Neighbourhoods, by their hash, that were tried for a kind.
+    tried: HashSet<(u64, Kind)>,
     pub fits: usize,
 }
 
@@ -61,6 +66,7 @@ impl<'a> Search<'a> {
             tolerance,
             open,
             marks: Marks::default(),
+            tried: HashSet::new(),
             fits: 0,
         }
     }
@@ -113,19 +119,28 @@ impl<'a> Search<'a> {
                 self.attempt(seed, kind, &triple, &mut best);
             }
         }
-        for star in self.stars(seed) {
+        let stars = self.stars(seed);
+        let mut spoke: [Vec<usize>; 4] = Default::default();
+        for (i, star) in stars.iter().enumerate() {
             for kind in Kind::CURVED {
-                if !self.settled(&best, kind) {
-                    self.attempt(seed, kind, &star, &mut best);
+                if !self.settled(&best, kind) && self.attempt(seed, kind, star, &mut best) {
+                    spoke[kind as usize - 1].push(i);
                 }
             }
         }
         if !best.iter().flatten().any(|h| h.strong) {
             for rings in [1, 2] {
                 let ring = self.rings(seed, rings);
+                let holds = |star: &[u32]| star.iter().all(|p| ring.contains(p));
                 for kind in Kind::CURVED {
-                    if !self.settled(&best, kind) {
-                        self.attempt(seed, kind, &ring, &mut best);
+                    // What does not fit a part does not fit the whole.
+                    let refuted = spoke[kind as usize - 1].iter().any(|&i| holds(&stars[i]));
+                    if !refuted
+                        && self.attempt(seed, kind, &ring, &mut best)
+                        && !self.settled(&best, kind)
+                    {
+                        // Nor does the next ring.
+                        spoke[kind as usize - 1].extend(0..stars.len().min(1));
                     }
                 }
             }
@@ -140,16 +155,22 @@ impl<'a> Search<'a> {
             .is_some_and(|h| h.strong && h.pieces.len() >= COVERS)
     }
 
+    /// Fits a kind to a neighbourhood and lets it grow. False if it has too few vertices for that.
     fn attempt(
         &mut self,
         seed: u32,
         kind: Kind,
         around: &[u32],
         best: &mut [Option<Hypothesis>; 4],
-    ) {
+    ) -> bool {
         let vertices = self.view.vertices_of(around);
         if vertices.len() < kind.degrees_of_freedom() + 2 {
-            return;
+            return false;
+        }
+        let mut hasher = DefaultHasher::new();
+        around.hash(&mut hasher);
+        if !self.tried.insert((hasher.finish(), kind)) {
+            return true;
         }
         let points = self.few(&vertices);
         let pick = |of: &[DVec3]| -> Vec<DVec3> { around.iter().map(|&p| of[p as usize]).collect() };
@@ -185,6 +206,7 @@ impl<'a> Search<'a> {
                 }
             }
         }
+        true
     }
 
     fn few(&self, vertices: &[u32]) -> Vec<DVec3> {

@@ -56,17 +56,20 @@ pub(crate) struct Search<'a> {
     marks: Marks,
     /// Neighbourhoods, by their hash, that were tried for a kind.
     tried: HashSet<(u64, Kind)>,
+    /// A piece beside so many that were seeds in vain is none.
+    most_failed: usize,
     pub fits: usize,
 }
 
 impl<'a> Search<'a> {
-    pub fn new(view: View<'a>, open: &'a [bool], tolerance: f64) -> Self {
+    pub fn new(view: View<'a>, open: &'a [bool], tolerance: f64, most_failed: usize) -> Self {
         Self {
             view,
             tolerance,
             open,
             marks: Marks::default(),
             tried: HashSet::new(),
+            most_failed,
             fits: 0,
         }
     }
@@ -82,11 +85,15 @@ impl<'a> Search<'a> {
         seeds.sort_by(|a, b| area(b).total_cmp(&area(a)));
         let mut covered = vec![false; pieces.count()];
         let mut found = Vec::new();
+        let mut failed = vec![false; pieces.count()];
         for seed in seeds {
-            if covered[seed as usize] {
+            let near = self.neighbours(seed).filter(|&p| failed[p as usize]);
+            if covered[seed as usize] || near.count() >= self.most_failed {
                 continue;
             }
+            failed[seed as usize] = true;
             for hypothesis in self.from_seed(seed) {
+                failed[seed as usize] &= !hypothesis.strong;
                 if hypothesis.strong && hypothesis.pieces.len() >= COVERS {
                     for &piece in &hypothesis.pieces {
                         covered[piece as usize] = true;

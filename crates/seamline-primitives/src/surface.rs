@@ -90,7 +90,7 @@ impl Surface {
             }
             Kind::Torus => {
                 let at = self.about_axis(x);
-                (at.distance - self.a).hypot(at.height) - self.b
+                ((at.distance - self.a).powi(2) + at.height.powi(2)).sqrt() - self.b
             }
         }
     }
@@ -155,7 +155,9 @@ impl Surface {
             Kind::Torus => {
                 let at = self.about_axis(x);
                 let over = at.distance - self.a;
-                let tube = over.hypot(at.height).max(f64::MIN_POSITIVE);
+                let tube = (over * over + at.height * at.height)
+                    .sqrt()
+                    .max(f64::MIN_POSITIVE);
                 let (over, height) = (over / tube, at.height / tube);
                 (
                     tube - self.b,

@@ -186,7 +186,7 @@ fn climb(
     let open: Vec<bool> = (0..view.pieces.count())
         .map(|p| !view.pieces.certain[p] && regions.owner[p] == NONE)
         .collect();
-    let mut search = Search::new(view, &open, tolerance, if rung == 0 { 2 } else { 1 });
+    let mut search = Search::new(view, &open, tolerance, 1);
     let found = search.run();
     *fits += search.fits;
     let least = |kind: Kind| match (rung, kind) {

@@ -102,6 +102,13 @@ pub fn find(positions: &[DVec3], topology: &Topology) -> Partition {
         pieces: &pieces,
     };
     let trusted = trust::trusted(view, topology, &regions);
+    {
+        let whole: f64 = pieces.areas.iter().sum();
+        let planes: f64 = (0..pieces.count()).filter(|&p| pieces.certain[p] && regions.owner[p] == NONE).map(|p| pieces.areas[p]).sum();
+        let exact: f64 = regions.alive().filter(|&r| trusted[r as usize] && regions.all[r as usize].is_exact()).map(|r| view.area(&regions.all[r as usize].pieces)).sum();
+        let near: f64 = regions.alive().filter(|&r| trusted[r as usize] && !regions.all[r as usize].is_exact()).map(|r| view.area(&regions.all[r as usize].pieces)).sum();
+        eprintln!("planes {:.3} exact {:.3} near {:.3}", planes / whole, exact / whole, near / whole);
+    }
     if let Ok(path) = std::env::var("DUMP") {
         let mut text = String::new();
         for region in regions.alive() {

@@ -235,38 +235,74 @@ fn grow_flat(
     let by_area = |&f: &u32| triangles.areas[f as usize];
     order.sort_by(|a, b| by_area(b).total_cmp(&by_area(a)));
     let mut count = numbers.len() as u32;
-    let mut open = Vec::new();
     for seed in order {
         if of_face[seed as usize] != NONE {
             continue;
         }
-        let normal = triangles.normals[seed as usize];
-        let point = triangles.centroids[seed as usize];
-        let in_plane = |face: u32| {
-            let face = face as usize;
-            let away = (triangles.normals[face] - normal).length();
-            let sure = triangles.heights[face].max(f64::MIN_POSITIVE);
-            let agrees = away <= 0.004 + 4.0 * tolerance / sure
-                && (triangles.normals[face].dot(normal) >= 0.5 || triangles.areas[face] == 0.0);
-            agrees
-                && topology.triangles[face]
-                    .iter()
-                    .all(|&v| (positions[v as usize] - point).dot(normal).abs() <= tolerance)
-        };
+        let mut plane = (triangles.normals[seed as usize], triangles.centroids[seed as usize]);
+        let mut members = vec![seed];
         of_face[seed as usize] = count;
-        open.push(seed);
-        while let Some(face) = open.pop() {
-            for edge in topology.face_edges[face as usize] {
-                if let Some(across) = topology.neighbour(face, edge)
-                    && of_face[across as usize] == NONE
-                    && in_plane(across)
-                {
-                    of_face[across as usize] = count;
-                    open.push(across);
-                }
+        loop {
+            let fitted = members.len();
+            spread_flat(positions, topology, triangles, tolerance, plane, count, &mut members, &mut of_face);
+            // A plane known from few triangles errs far away from them.
+            if members.len() < 2 * fitted {
+                break;
             }
+            plane = mean_plane(triangles, &members);
         }
         count += 1;
     }
     of_face
+}
+
+/// Lets a flat piece take in the triangles in its plane, given by normal and point.
+#[allow(clippy::too_many_arguments)]
+fn spread_flat(
+    positions: &[DVec3],
+    topology: &Topology,
+    triangles: &Triangles,
+    tolerance: f64,
+    (normal, point): (DVec3, DVec3),
+    piece: u32,
+    members: &mut Vec<u32>,
+    of_face: &mut [u32],
+) {
+    let in_plane = |face: u32| {
+        let face = face as usize;
+        let away = (triangles.normals[face] - normal).length();
+        let sure = triangles.heights[face].max(f64::MIN_POSITIVE);
+        let agrees = away <= 0.004 + 4.0 * tolerance / sure
+            && (triangles.normals[face].dot(normal) >= 0.5 || triangles.areas[face] == 0.0);
+        agrees
+            && topology.triangles[face]
+                .iter()
+                .all(|&v| (positions[v as usize] - point).dot(normal).abs() <= tolerance)
+    };
+    let mut at = 0;
+    while at < members.len() {
+        let face = members[at];
+        at += 1;
+        for edge in topology.face_edges[face as usize] {
+            if let Some(across) = topology.neighbour(face, edge)
+                && of_face[across as usize] == NONE
+                && in_plane(across)
+            {
+                of_face[across as usize] = piece;
+                members.push(across);
+            }
+        }
+    }
+}
+
+fn mean_plane(triangles: &Triangles, faces: &[u32]) -> (DVec3, DVec3) {
+    let [mut normal, mut point] = [DVec3::ZERO; 2];
+    let mut area = 0.0;
+    for &face in faces {
+        let own = triangles.areas[face as usize];
+        normal += triangles.normals[face as usize] * own;
+        point += triangles.centroids[face as usize] * own;
+        area += own;
+    }
+    (normal.normalize_or_zero(), point / area)
 }

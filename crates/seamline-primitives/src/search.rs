@@ -135,20 +135,18 @@ impl<'a> Search<'a> {
                 }
             }
         }
-        if !best.iter().flatten().any(|h| h.strong) {
-            for rings in [1, 2] {
-                let ring = self.rings(seed, rings);
-                let holds = |star: &[u32]| star.iter().all(|p| ring.contains(p));
-                for kind in Kind::CURVED {
-                    // What does not fit a part does not fit the whole.
-                    let refuted = spoke[kind as usize - 1].iter().any(|&i| holds(&stars[i]));
-                    if !refuted
-                        && self.attempt(seed, kind, &ring, &mut best)
-                        && !self.settled(&best, kind)
-                    {
-                        // Nor does the next ring.
-                        spoke[kind as usize - 1].extend(0..stars.len().min(1));
-                    }
+        for rings in [1, 2] {
+            let ring = self.rings(seed, rings);
+            let holds = |star: &[u32]| star.iter().all(|p| ring.contains(p));
+            for kind in Kind::CURVED {
+                // What does not fit a part does not fit the whole.
+                let refuted = spoke[kind as usize - 1].iter().any(|&i| holds(&stars[i]));
+                if !refuted
+                    && !self.settled(&best, kind)
+                    && self.attempt(seed, kind, &ring, &mut best)
+                {
+                    // Nor does the next ring.
+                    spoke[kind as usize - 1].extend(0..stars.len().min(1));
                 }
             }
         }

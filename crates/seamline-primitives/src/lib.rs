@@ -74,18 +74,12 @@ pub fn find(positions: &[DVec3], topology: &Topology) -> Partition {
     for (rung, &tolerance) in LADDER.iter().enumerate() {
         if rung > 0 {
             let settled = |&piece: &u32| {
-                let taken = regions.owner[piece as usize] != NONE || pieces.certain[piece as usize];
+                let taken = regions.owner[piece as usize] != NONE;
                 if taken { piece } else { NONE }
             };
             let settled: Vec<u32> = pieces.of_face.iter().map(settled).collect();
             let flat = FLAT2 * tolerance;
             let next = Pieces::find(&scaled, topology, &triangles, flat, &settled, 25);
-            let was = &pieces;
-            let mut next = next;
-            for (piece, certain) in next.certain.iter_mut().enumerate() {
-                let face = next.faces.row(piece as u32)[0];
-                *certain |= was.certain[was.of_face[face as usize] as usize];
-            }
 
             regions = regions.moved(&pieces, &next);
             pieces = next;
@@ -94,6 +88,7 @@ pub fn find(positions: &[DVec3], topology: &Topology) -> Partition {
             positions: &scaled,
             pieces: &pieces,
         };
+        accept_planes(view, &mut regions, tolerance);
         climb(view, topology, &mut regions, rung, tolerance, &mut fits);
         absorb::absorb(view, &mut regions, tolerance);
     }
@@ -171,6 +166,22 @@ fn frame(positions: &[DVec3], topology: &Topology) -> (DVec3, f64) {
     ((low + high) / 2.0, (high - low).length())
 }
 
+/// Accepts the pieces that are planes whatever lies beside them.
+fn accept_planes(view: View, regions: &mut Regions, tolerance: f64) {
+    for piece in 0..view.pieces.count() as u32 {
+        if view.pieces.certain[piece as usize] && regions.owner[piece as usize] == NONE {
+            let plane = Surface {
+                kind: Kind::Plane,
+                point: view.pieces.centroids[piece as usize],
+                axis: view.pieces.normals[piece as usize],
+                a: 0.0,
+                b: 0.0,
+            };
+            regions.accept(view.weigh(plane, 1.0, vec![piece], tolerance));
+        }
+    }
+}
+
 /// One rung of the ladder of tolerances.
 fn climb(
     view: View,
@@ -191,7 +202,7 @@ fn climb(
         doubtful.into_iter().map(|r| regions.dissolve(r)).collect()
     };
     let open: Vec<bool> = (0..view.pieces.count())
-        .map(|p| !view.pieces.certain[p] && regions.owner[p] == NONE)
+        .map(|p| regions.owner[p] == NONE)
         .collect();
     let mut search = Search::new(view, &open, tolerance, 1);
     let found = search.run();

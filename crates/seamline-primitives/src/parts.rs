@@ -8,6 +8,7 @@ use crate::certain::is_certain_plane;
 use crate::hypothesis::View;
 use crate::pieces::NONE;
 use crate::regions::{Ending, Regions};
+use crate::surface::Kind;
 
 /// What a part is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -141,12 +142,10 @@ pub(crate) fn join_islands(view: View, regions: &Regions, parts: &mut Parts) {
 fn join_islands_once(view: View, regions: &Regions, parts: &mut Parts) -> bool {
     let pieces = view.pieces;
     let mut all = vec![Island::default(); parts.forms.len()];
-    let mut certain = vec![false; parts.forms.len()];
     let mut most_vertices = vec![0; parts.forms.len()];
     for (piece, &part) in parts.of_piece.iter().enumerate() {
         all[part as usize].area += pieces.areas[piece];
         all[part as usize].pieces += 1;
-        certain[part as usize] |= pieces.certain[piece];
         let vertices = pieces.vertices.row(piece as u32).len();
         most_vertices[part as usize] = vertices.max(most_vertices[part as usize]);
     }
@@ -158,12 +157,15 @@ fn join_islands_once(view: View, regions: &Regions, parts: &mut Parts) -> bool {
         }
     }
     let is_island = |part: usize| match parts.forms[part] {
-        Form::Plane => !certain[part] && most_vertices[part] <= 4,
-        Form::Surface(region) => regions.all[region as usize].evidence < LITTLE_EVIDENCE,
+        Form::Plane => most_vertices[part] <= 4,
+        Form::Surface(region) => {
+            let region = &regions.all[region as usize];
+            region.surface.kind != Kind::Plane && region.evidence < LITTLE_EVIDENCE
+        }
         Form::Free => all[part].pieces <= FEW_PIECES,
     };
     let mut islands: Vec<usize> = (0..all.len())
-        .filter(|&part| !certain[part] && all[part].pieces > 0 && is_island(part))
+        .filter(|&part| all[part].pieces > 0 && is_island(part))
         .collect();
     islands.sort_by(|&a, &b| all[a].area.total_cmp(&all[b].area));
     let mut into: Vec<u32> = (0..all.len() as u32).collect();

@@ -7,6 +7,7 @@ use seamline_mesh::{Sets, Topology};
 use crate::hypothesis::View;
 use crate::pieces::NONE;
 use crate::regions::{Ending, Regions};
+use crate::surface::Kind;
 
 /// Evidence from which no border is asked: of a surface its vertices lie on exactly, and of one they come near.
 const ENOUGH_IF_EXACT: i64 = 6;
@@ -55,7 +56,7 @@ fn is_natural(
 ) -> bool {
     let own = &regions.all[region as usize];
     let exact = own.strong && own.is_exact() && own.evidence >= ENOUGH_IF_EXACT;
-    if exact || own.evidence >= BEYOND_DOUBT {
+    if own.surface.kind == Kind::Plane || exact || own.evidence >= BEYOND_DOUBT {
         return true;
     }
     let [mut walls, mut natural, mut whole] = [0.0; 3];

@@ -11,8 +11,8 @@ fn main() {
         let start = std::time::Instant::now();
         let found = seamline_primitives::find(mesh.positions(), &topology);
         let name = path.file_stem().unwrap().to_string_lossy();
-        eprintln!("{name} {:.0} ms {} fits {} patches", start.elapsed().as_secs_f64() * 1e3, found.fits, found.patches.len());
-        let kinds: String = found.patches.iter().map(|p| match &p.surface { Some(s) => format!("{:?} ev {} {} {:?}\n", s.kind, p.evidence, p.strong, (s.a, s.b)), None => p.form.to_string() + "\n" }).collect();
+        eprintln!("{name} {:.0} ms {:.3} exact {} patches", start.elapsed().as_secs_f64() * 1e3, found.exact_share, found.surfaces.len());
+        let kinds: String = found.surfaces.iter().map(|p| match p { Some(s) => format!("{:?} ev {} {:?} {:.1e} {}\n", s.surface.kind, s.evidence, (s.surface.a, s.surface.b), s.residual, s.exact), None => "Free\n".into() }).collect();
         std::fs::write(format!("{out}/{name}.kinds"), kinds).unwrap();
         let text: String = found.of_face.iter().map(|l| format!("{l}\n")).collect();
         std::fs::write(format!("{out}/{name}.seg"), text).unwrap();

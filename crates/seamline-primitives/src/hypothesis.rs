@@ -34,7 +34,7 @@ impl Hypothesis {
 
 /// Root mean square distance of vertices stored in single precision from the surface they were put on, in
 /// diagonals: 1e-8 to 2e-8 in exports, 1e-7 and more in surfaces that only come near.
-const PRECISION: f64 = 5e-8;
+pub(crate) const PRECISION: f64 = 5e-8;
 
 /// The mesh as the search sees it.
 #[derive(Clone, Copy)]

@@ -8,6 +8,7 @@ mod certain;
 mod eigen;
 mod crease_angles;
 mod creases;
+mod describe;
 mod guess;
 mod hypothesis;
 mod linear;
@@ -33,91 +34,59 @@ use regions::Regions;
 use search::Search;
 use select::{borders_speak_for, select};
 
-/// Distances, in diagonals of the bounding box, at which vertices still lie on a surface: the precision of an
-/// export, then that of kernels which store an approximation.
+/// Distances, in diagonals of the bounding box, at which vertices still lie on a surface: that of an export
+/// in single precision, then those of kernels which store an approximation.
 const LADDER: [f64; 3] = [1e-6, 1e-5, 5e-5];
 
-/// How flat the pieces are, as a share of the tolerance.
-const FLAT: f64 = 0.3;
-const FLAT2: f64 = 0.3;
+/// How flat a piece is, as a share of the tolerance.
+const FLATNESS: f64 = 0.3;
 
-/// A patch found.
-#[derive(Clone, Debug)]
-pub struct Patch {
-    /// What it is; `None` for a free form.
-    pub surface: Option<Surface>,
-    pub evidence: i64,
-    pub strong: bool,
-    pub form: &'static str,
+/// Fewest vertices of a flat piece that is a plane whatever lies beside it: at the precision of an export,
+/// and farther out, where a gently curved free form has flat pieces too.
+const PLANE_VERTICES: [usize; 3] = [7, 25, 25];
+
+/// A surface with its evidence. Lengths are in the mesh's own unit.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Fitted {
+    /// Where and what it is.
+    pub surface: Surface,
+    /// Does the surface bend away from the outside, as an outer cylinder does? A hole and an inner fillet do
+    /// not. No meaning for a plane, whose normal points outside.
+    pub convex: bool,
+    /// Root mean square distance of the patch's vertices.
+    pub residual: f64,
+    /// Do the vertices lie on it as exactly as they are stored?
+    pub exact: bool,
+    /// Distinct vertices less degrees of freedom.
+    pub evidence: u32,
 }
 
 /// The patches of a mesh.
 #[derive(Clone, Debug, Default)]
-pub struct Partition {
-    /// The patch of each face.
+pub struct Found {
+    /// The patch of each face; numbers from 0.
     pub of_face: Vec<u32>,
-    /// One a patch.
-    pub patches: Vec<Patch>,
-    /// How many fits were made.
-    pub fits: usize,
+    /// One a patch: its surface, `None` for a free form.
+    pub surfaces: Vec<Option<Fitted>>,
+    /// Share of the area that lies exactly on surfaces of sufficient evidence: near 0 where vertices are noisy
+    /// or nothing is designed of such surfaces.
+    pub exact_share: f64,
 }
 
 /// Finds the patches of a mesh.
-pub fn find(positions: &[DVec3], topology: &Topology) -> Partition {
+///
+/// Faces must be between vertices of `positions`; faces without area belong to a neighbour or to themselves.
+/// Nothing is found in a mesh without extent: one patch a connected piece then.
+pub fn find(positions: &[DVec3], topology: &Topology) -> Found {
     let (centre, diagonal) = frame(positions, topology);
     let scaled: Vec<DVec3> = positions.iter().map(|&x| (x - centre) / diagonal).collect();
     let triangles = Triangles::of(&scaled, &topology.triangles);
-    let mut fits = 0;
-    let nothing = vec![NONE; triangles.areas.len()];
-    let mut pieces = Pieces::find(&scaled, topology, &triangles, FLAT * LADDER[0], &nothing, 7);
-    let mut regions = Regions::none(pieces.count());
-    for (rung, &tolerance) in LADDER.iter().enumerate() {
-        if rung > 0 {
-            let settled = |&piece: &u32| {
-                let taken = regions.owner[piece as usize] != NONE;
-                if taken { piece } else { NONE }
-            };
-            let settled: Vec<u32> = pieces.of_face.iter().map(settled).collect();
-            let flat = FLAT2 * tolerance;
-            let next = Pieces::find(&scaled, topology, &triangles, flat, &settled, 25);
-
-            regions = regions.moved(&pieces, &next);
-            pieces = next;
-        }
-        let view = View {
-            positions: &scaled,
-            pieces: &pieces,
-        };
-        accept_planes(view, &mut regions, tolerance);
-        climb(view, topology, &mut regions, rung, tolerance, &mut fits);
-        absorb::absorb(view, &mut regions, tolerance);
-    }
+    let (pieces, mut regions) = climb(&scaled, topology, &triangles);
     let view = View {
         positions: &scaled,
         pieces: &pieces,
     };
     let trusted = trust::trusted(view, topology, &regions);
-    {
-        let whole: f64 = pieces.areas.iter().sum();
-        let planes: f64 = (0..pieces.count()).filter(|&p| pieces.certain[p] && regions.owner[p] == NONE).map(|p| pieces.areas[p]).sum();
-        let exact: f64 = regions.alive().filter(|&r| trusted[r as usize] && regions.all[r as usize].is_exact()).map(|r| view.area(&regions.all[r as usize].pieces)).sum();
-        let near: f64 = regions.alive().filter(|&r| trusted[r as usize] && !regions.all[r as usize].is_exact()).map(|r| view.area(&regions.all[r as usize].pieces)).sum();
-        eprintln!("planes {:.3} exact {:.3} near {:.3}", planes / whole, exact / whole, near / whole);
-    }
-    if let Ok(path) = std::env::var("DUMP") {
-        let mut text = String::new();
-        for region in regions.alive() {
-            let h = &regions.all[region as usize];
-            let vs = view.vertices_of(&h.pieces);
-            let mut d: Vec<f64> = vs.iter().map(|&v| h.surface.distance(scaled[v as usize]).abs()).collect();
-            d.sort_by(f64::total_cmp);
-            let rms = (d.iter().map(|x| x * x).sum::<f64>() / d.len() as f64).sqrt();
-            let n = trust::shares(view, topology, &regions, &trusted, region);
-            let f: Vec<String> = h.pieces.iter().flat_map(|&p| pieces.faces.row(p)).map(|f| f.to_string()).collect();
-            text += &format!("{:?} {} {} {:e} {:e} {:e} {} {:.3} {:.3} {:.5} {:.5} {} {}\n", h.surface.kind, h.evidence, h.strong, rms, d[d.len()-1], h.tolerance, trusted[region as usize], n.0, n.1, h.surface.a, h.surface.b, h.pieces.len(), f.join(","));
-        }
-        std::fs::write(path, text).unwrap();
-    }
     let doubtful: Vec<u32> = regions.alive().filter(|&r| !trusted[r as usize]).collect();
     for region in doubtful {
         regions.dissolve(region);
@@ -130,28 +99,19 @@ pub fn find(positions: &[DVec3], topology: &Topology) -> Partition {
         .map(|&p| parts.of_piece[p as usize])
         .collect();
     creases::split(&scaled, topology, &triangles, &parts.forms, &mut of_face);
-    Partition {
+    let surfaces = describe::surfaces(view, &regions, &parts, &of_face);
+    let exact = regions
+        .alive()
+        .filter(|&r| regions.all[r as usize].is_exact());
+    let exact: f64 = exact.map(|r| view.area(&regions.all[r as usize].pieces)).sum();
+    let whole: f64 = triangles.areas.iter().sum();
+    Found {
         of_face,
-        patches: parts
-            .forms
-            .iter()
-            .map(|form| Patch {
-                surface: match form {
-                    Form::Surface(region) => Some(regions.all[*region as usize].surface),
-                    _ => None,
-                },
-                evidence: match form {
-                    Form::Surface(region) => regions.all[*region as usize].evidence,
-                    _ => 0,
-                },
-                strong: match form {
-                    Form::Surface(region) => regions.all[*region as usize].strong,
-                    _ => false,
-                },
-                form: if *form == Form::Plane { "Plane" } else { "Free" },
-            })
+        surfaces: surfaces
+            .into_iter()
+            .map(|fitted| fitted.map(|f| f.moved(centre, diagonal)))
             .collect(),
-        fits,
+        exact_share: if whole > 0.0 { exact / whole } else { 0.0 },
     }
 }
 
@@ -163,7 +123,44 @@ fn frame(positions: &[DVec3], topology: &Topology) -> (DVec3, f64) {
         .fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), x| {
             (low.min(x), high.max(x))
         });
-    ((low + high) / 2.0, (high - low).length())
+    let diagonal = (high - low).length();
+    if diagonal > 0.0 && diagonal.is_finite() {
+        ((low + high) / 2.0, diagonal)
+    } else {
+        (DVec3::ZERO, 1.0)
+    }
+}
+
+/// Regions of surfaces, rung by rung of the ladder of tolerances. What one rung settles the next leaves alone;
+/// what is left is cut into flatter or less flat pieces anew.
+fn climb(
+    positions: &[DVec3],
+    topology: &Topology,
+    triangles: &Triangles,
+) -> (Pieces, Regions) {
+    let mut pieces = Pieces::default();
+    let mut regions = Regions::default();
+    let mut settled = vec![NONE; triangles.areas.len()];
+    for (rung, &tolerance) in LADDER.iter().enumerate() {
+        let flat = FLATNESS * tolerance;
+        let fewest = PLANE_VERTICES[rung];
+        let next = Pieces::find(positions, topology, triangles, flat, &settled, fewest);
+        regions = regions.moved(&pieces, &next);
+        pieces = next;
+        let view = View {
+            positions,
+            pieces: &pieces,
+        };
+        accept_planes(view, &mut regions, tolerance);
+        step(view, topology, &mut regions, rung, tolerance);
+        absorb::absorb(view, &mut regions, tolerance);
+        let owned = |&piece: &u32| {
+            let taken = regions.owner[piece as usize] != NONE;
+            if taken { piece } else { NONE }
+        };
+        settled = pieces.of_face.iter().map(owned).collect();
+    }
+    (pieces, regions)
 }
 
 /// Accepts the pieces that are planes whatever lies beside them.
@@ -183,14 +180,7 @@ fn accept_planes(view: View, regions: &mut Regions, tolerance: f64) {
 }
 
 /// One rung of the ladder of tolerances.
-fn climb(
-    view: View,
-    topology: &Topology,
-    regions: &mut Regions,
-    rung: usize,
-    tolerance: f64,
-    fits: &mut usize,
-) {
+fn step(view: View, topology: &Topology, regions: &mut Regions, rung: usize, tolerance: f64) {
     let freed = if rung == 0 {
         Vec::new()
     } else {
@@ -204,9 +194,7 @@ fn climb(
     let open: Vec<bool> = (0..view.pieces.count())
         .map(|p| regions.owner[p] == NONE)
         .collect();
-    let mut search = Search::new(view, &open, tolerance, 1);
-    let found = search.run();
-    *fits += search.fits;
+    let found = Search::new(view, &open, tolerance).run();
     let least = |kind: Kind| match (rung, kind) {
         (0, _) => 1,
         (1, Kind::Cylinder) => 16,

@@ -56,21 +56,16 @@ pub(crate) struct Search<'a> {
     marks: Marks,
     /// Neighbourhoods, by their hash, that were tried for a kind.
     tried: HashSet<(u64, Kind)>,
-    /// A piece beside so many that were seeds in vain is none.
-    most_failed: usize,
-    pub fits: usize,
 }
 
 impl<'a> Search<'a> {
-    pub fn new(view: View<'a>, open: &'a [bool], tolerance: f64, most_failed: usize) -> Self {
+    pub fn new(view: View<'a>, open: &'a [bool], tolerance: f64) -> Self {
         Self {
             view,
             tolerance,
             open,
             marks: Marks::default(),
             tried: HashSet::new(),
-            most_failed,
-            fits: 0,
         }
     }
 
@@ -87,8 +82,9 @@ impl<'a> Search<'a> {
         let mut found = Vec::new();
         let mut failed = vec![false; pieces.count()];
         for seed in seeds {
-            let near = self.neighbours(seed).filter(|&p| failed[p as usize]);
-            if covered[seed as usize] || near.count() >= self.most_failed {
+            // Beside a seed that was in vain another rarely is not, and free forms are all such.
+            let in_vain = self.neighbours(seed).any(|p| failed[p as usize]);
+            if covered[seed as usize] || in_vain {
                 continue;
             }
             failed[seed as usize] = true;
@@ -185,7 +181,6 @@ impl<'a> Search<'a> {
             points: &points,
         };
         for guess in guesses(kind, &neighbourhood) {
-            self.fits += 1;
             let Some(fit) = refine(guess, &points, self.tolerance) else {
                 continue;
             };

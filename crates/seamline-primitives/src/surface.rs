@@ -76,6 +76,22 @@ impl Surface {
         }
     }
 
+    /// The same surface with a cone's radius growing along its axis and no negative radius but a spindle's.
+    pub(crate) fn with_positive_radii(self) -> Self {
+        match self.kind {
+            Kind::Cone if self.b < 0.0 => Self {
+                axis: -self.axis,
+                b: -self.b,
+                ..self
+            },
+            Kind::Torus => Self {
+                b: self.b.abs(),
+                ..self
+            },
+            _ => self,
+        }
+    }
+
     /// Signed distance of a point: positive away from the axis, from the centre of the sphere, from the
     /// circle in the tube of the torus, or on the normal's side of the plane.
     #[inline]

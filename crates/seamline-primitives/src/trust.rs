@@ -141,23 +141,3 @@ fn trust_the_largest(view: View, regions: &Regions, trusted: &mut [bool]) -> boo
     }
     !candidates.is_empty()
 }
-
-pub(crate) fn shares(view: View, topology: &Topology, regions: &Regions, trusted: &[bool], region: u32) -> (f64, f64) {
-    let own = &regions.all[region as usize];
-    let [mut walls, mut natural, mut whole] = [0.0; 3];
-    for &piece in &own.pieces {
-        for &link in view.pieces.around.row(piece) {
-            let at = &view.pieces.links[link as usize];
-            let across = at.across(piece);
-            let owner = regions.owner[across as usize];
-            if owner == region { continue; }
-            whole += at.length;
-            if at.wall { walls += at.length; continue; }
-            let speaks = if owner == NONE {
-                view.pieces.certain[across as usize] || regions.ending(view, topology, own, piece, link) == Ending::Tangent
-            } else { trusted[owner as usize] };
-            if speaks { natural += at.length; }
-        }
-    }
-    ((walls + natural) / whole, natural / (whole - walls))
-}

@@ -1,0 +1,97 @@
+//! What is told of patches: the surface of each, fitted to all its vertices once more.
+
+use glam::DVec3;
+
+use crate::Fitted;
+use crate::hypothesis::{Hypothesis, PRECISION, View};
+use crate::parts::{Form, Parts};
+use crate::refine::refine_patiently;
+use crate::regions::Regions;
+use crate::surface::{Kind, Surface};
+
+/// Most vertices the last fit looks at.
+const MOST_POINTS: usize = 2000;
+
+/// The surface of each patch, by the numbers in `of_face`.
+pub(crate) fn surfaces(
+    view: View,
+    regions: &Regions,
+    parts: &Parts,
+    of_face: &[u32],
+) -> Vec<Option<Fitted>> {
+    let count = of_face.iter().max().map_or(0, |&last| last as usize + 1);
+    let mut surfaces = vec![None; count.max(parts.forms.len())];
+    let mut planes = vec![Vec::new(); parts.forms.len()];
+    for (piece, &part) in parts.of_piece.iter().enumerate() {
+        if parts.forms[part as usize] == Form::Plane {
+            planes[part as usize].push(piece as u32);
+        }
+    }
+    for (part, form) in parts.forms.iter().enumerate() {
+        surfaces[part] = match form {
+            Form::Surface(region) => Some(fitted(view, &regions.all[*region as usize])),
+            Form::Plane => planes[part].first().map(|&piece| plane(view, piece)),
+            Form::Free => None,
+        };
+    }
+    surfaces
+}
+
+fn plane(view: View, piece: u32) -> Fitted {
+    let surface = Surface {
+        kind: Kind::Plane,
+        point: view.pieces.centroids[piece as usize],
+        axis: view.pieces.normals[piece as usize],
+        a: 0.0,
+        b: 0.0,
+    };
+    fitted(view, &view.weigh(surface, 1.0, vec![piece], PRECISION))
+}
+
+fn fitted(view: View, region: &Hypothesis) -> Fitted {
+    let vertices = view.vertices_of(&region.pieces);
+    let points: Vec<DVec3> = vertices
+        .iter()
+        .map(|&v| view.positions[v as usize])
+        .collect();
+    let few: Vec<DVec3> = points
+        .iter()
+        .copied()
+        .step_by(points.len().div_ceil(MOST_POINTS))
+        .collect();
+    let rms = |surface: &Surface| {
+        let squares: f64 = points.iter().map(|&x| surface.distance(x).powi(2)).sum();
+        (squares / points.len() as f64).sqrt()
+    };
+    let again = refine_patiently(region.surface, &few, 0.0).map(|fit| fit.surface);
+    let surface = again
+        .filter(|surface| rms(surface) <= rms(&region.surface))
+        .unwrap_or(region.surface);
+    let residual = rms(&surface);
+    Fitted {
+        surface: surface.with_positive_radii(),
+        convex: region.sign > 0.0,
+        residual,
+        exact: residual <= PRECISION,
+        evidence: region.evidence.max(0) as u32,
+    }
+}
+
+impl Fitted {
+    /// In coordinates `x * scale + centre`.
+    pub(crate) fn moved(self, centre: DVec3, scale: f64) -> Self {
+        let mut surface = Surface {
+            point: self.surface.point * scale + centre,
+            a: self.surface.a * scale,
+            ..self.surface
+        };
+        if surface.kind == Kind::Torus {
+            surface.b *= scale;
+        }
+        Self {
+            surface,
+            residual: self.residual * scale,
+            ..self
+        }
+    }
+}

@@ -69,6 +69,10 @@ pub struct FaceShape {
 #[derive(Component, Clone, Copy, Debug, Default, PartialEq)]
 pub struct FaceSample(pub u32);
 
+/// Face: the surface it was found to lie on, [`NONE`] if none was looked for.
+#[derive(Component, Clone, Copy, Debug, Default, PartialEq)]
+pub struct FaceSurface(pub u32);
+
 /// Face: its region after growing and merging, its patch after rectifying.
 #[derive(Component, Clone, Copy, Debug, Default, PartialEq)]
 pub struct FaceLabel(pub u32);
@@ -134,6 +138,12 @@ pub struct Sample {
 /// Sample: its cluster, as the classifier has it.
 #[derive(Component, Clone, Copy, Debug, Default, PartialEq)]
 pub struct SampleCluster(pub u32);
+
+// Surfaces.
+
+/// Surface: what it is, with its evidence; a free form too has a row.
+#[derive(Component, Clone, Copy, Debug, Default, PartialEq)]
+pub struct Surface(pub crate::results::PatchSurface);
 
 // Regions and patches.
 

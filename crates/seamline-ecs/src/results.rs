@@ -59,6 +59,88 @@ pub struct PatchSummary {
     pub k_max_spread: f64,
 }
 
+/// What a patch is, in the file's unit.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+pub struct PatchSurface {
+    /// Type and parameters.
+    #[serde(flatten)]
+    pub shape: SurfaceShape,
+    /// Does it bend away from the inside, as a hole or an inner fillet does? `None` for planes and free forms.
+    pub concave: Option<bool>,
+    /// Root mean square distance of its vertices from the surface. `None` for free forms.
+    pub residual: Option<f64>,
+    /// How far the surface is proved, 0 to 1: `e / (e + 1)` with `e` vertices more than determine it, halved where
+    /// they lie near and not exactly on it. `None` for free forms.
+    pub confidence: Option<f64>,
+}
+
+/// Type and parameters of a surface. Directions have length 1.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+#[serde(tag = "type", rename_all = "kebab-case")]
+pub enum SurfaceShape {
+    /// None of the others.
+    #[default]
+    FreeForm,
+    /// A plane.
+    Plane {
+        /// A point of it.
+        point: [f64; 3],
+        /// Its normal, outward.
+        normal: [f64; 3],
+    },
+    /// A cylinder of revolution.
+    Cylinder {
+        /// A point of the axis.
+        point: [f64; 3],
+        /// Direction of the axis.
+        axis: [f64; 3],
+        /// Radius.
+        radius: f64,
+    },
+    /// A cone of revolution.
+    Cone {
+        /// Its tip.
+        apex: [f64; 3],
+        /// Direction in which it widens.
+        axis: [f64; 3],
+        /// Between axis and surface.
+        half_angle_deg: f64,
+    },
+    /// A sphere.
+    Sphere {
+        /// Its centre.
+        centre: [f64; 3],
+        /// Radius.
+        radius: f64,
+    },
+    /// A torus.
+    Torus {
+        /// Its centre.
+        centre: [f64; 3],
+        /// Direction of the axis.
+        axis: [f64; 3],
+        /// From the centre to the middle of the tube; negative where the tube's inner half is left of one
+        /// that meets the axis.
+        major_radius: f64,
+        /// Of the tube.
+        minor_radius: f64,
+    },
+}
+
+impl SurfaceShape {
+    /// A number for it, as `surface_type` of the PLY: 0 free form, 1 plane, 2 cylinder, 3 cone, 4 sphere, 5 torus.
+    pub fn number(&self) -> u8 {
+        match self {
+            Self::FreeForm => 0,
+            Self::Plane { .. } => 1,
+            Self::Cylinder { .. } => 2,
+            Self::Cone { .. } => 3,
+            Self::Sphere { .. } => 4,
+            Self::Torus { .. } => 5,
+        }
+    }
+}
+
 /// One patch in the report.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct PatchReport {
@@ -67,6 +149,8 @@ pub struct PatchReport {
     /// Its numbers.
     #[serde(flatten)]
     pub summary: PatchSummary,
+    /// What it is. `None` where no surfaces were looked for.
+    pub surface: Option<PatchSurface>,
     /// The patches it touches, by id.
     pub neighbours: Vec<u32>,
 }

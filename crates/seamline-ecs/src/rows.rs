@@ -26,6 +26,8 @@ pub struct Faces;
 pub struct Edges;
 /// Samples of curvature.
 pub struct Samples;
+/// Surfaces.
+pub struct Surfaces;
 /// Regions.
 pub struct Regions;
 /// Patches.
@@ -35,13 +37,16 @@ impl ElementKind for Vertices {
     type Components = (Position, SharpVertex, VertexCurvature, SmoothCurvature);
 }
 impl ElementKind for Faces {
-    type Components = (FaceShape, FaceSample, FaceLabel);
+    type Components = (FaceShape, FaceSurface, FaceSample, FaceLabel);
 }
 impl ElementKind for Edges {
     type Components = (DihedralAngle, SharpEdge, BoundaryScore, ContourState);
 }
 impl ElementKind for Samples {
     type Components = (SampleFeature, Sample, SampleCluster);
+}
+impl ElementKind for Surfaces {
+    type Components = Surface;
 }
 impl ElementKind for Regions {
     type Components = Region;

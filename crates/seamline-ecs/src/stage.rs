@@ -21,6 +21,8 @@ pub enum Stage {
     Prepare,
     /// Dihedral angles, sharp edges and vertices, enrichment.
     Sharp,
+    /// Surfaces the vertices lie on exactly, and the patches they make.
+    Surfaces,
     /// Curvature tensors and the samples the classifier sees.
     Curvature,
     /// A cluster for every sample. Filled by a plugin.
@@ -39,10 +41,11 @@ pub enum Stage {
 
 impl Stage {
     /// All stages, in order.
-    pub const ALL: [Self; 10] = [
+    pub const ALL: [Self; 11] = [
         Self::Import,
         Self::Prepare,
         Self::Sharp,
+        Self::Surfaces,
         Self::Curvature,
         Self::Classify,
         Self::Grow,
@@ -58,6 +61,7 @@ impl Stage {
             Self::Import => "import",
             Self::Prepare => "prepare",
             Self::Sharp => "sharp",
+            Self::Surfaces => "surfaces",
             Self::Curvature => "curvature",
             Self::Classify => "classify",
             Self::Grow => "grow",

@@ -9,7 +9,7 @@ fn main() {
         let mesh = weld(polygons, 0.0);
         let topology = Topology::build(mesh.positions().len(), mesh.triangles.clone());
         let start = std::time::Instant::now();
-        let found = seamline_primitives::find(mesh.positions(), &topology);
+        let found = seamline_primitives::find(mesh.positions(), &topology, mesh.bounding_box().map(|x| x.abs().max_element()).into_iter().fold(0.0, f64::max));
         let name = path.file_stem().unwrap().to_string_lossy();
         eprintln!("{name} {:.0} ms {:.3} exact {} patches", start.elapsed().as_secs_f64() * 1e3, found.exact_share, found.surfaces.len());
         let kinds: String = found.surfaces.iter().map(|p| match p { Some(s) => format!("{:?} ev {} {:?} {:.1e} {}\n", s.surface.kind, s.evidence, (s.surface.a, s.surface.b), s.residual, s.exact), None => "Free\n".into() }).collect();

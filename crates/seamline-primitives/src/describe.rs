@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use crate::Fitted;
-use crate::hypothesis::{Hypothesis, PRECISION, View};
+use crate::hypothesis::{Hypothesis, View};
 use crate::parts::{Form, Parts};
 use crate::refine::refine_patiently;
 use crate::regions::Regions;
@@ -45,7 +45,7 @@ fn plane(view: View, piece: u32) -> Fitted {
         a: 0.0,
         b: 0.0,
     };
-    fitted(view, &view.weigh(surface, 1.0, vec![piece], PRECISION))
+    fitted(view, &view.weigh(surface, 1.0, vec![piece], view.precision))
 }
 
 fn fitted(view: View, region: &Hypothesis) -> Fitted {
@@ -72,7 +72,7 @@ fn fitted(view: View, region: &Hypothesis) -> Fitted {
         surface: surface.with_positive_radii(),
         convex: region.sign > 0.0,
         residual,
-        exact: residual <= PRECISION,
+        exact: residual <= view.precision,
         evidence: region.evidence.max(0) as u32,
     }
 }

@@ -16,29 +16,20 @@ pub(crate) struct Hypothesis {
     pub pieces: Vec<u32>,
     /// Distinct vertices less degrees of freedom.
     pub evidence: i64,
-    /// How far its vertices may lie from it.
-    pub tolerance: f64,
     /// Root mean square of their distances.
     pub rms: f64,
+    /// Do its vertices lie on it as exactly as they are stored? A free form comes near many surfaces, and
+    /// grows until the tolerance ends it; hardly one leaves its vertices at the precision of their numbers.
+    pub exact: bool,
     /// Is it over-determined across rows, so that chance cannot explain the fit?
     pub strong: bool,
 }
 
-impl Hypothesis {
-    /// Do its vertices lie on it as exactly as they are stored? A free form comes near many surfaces, and grows
-    /// until the tolerance ends it; hardly one leaves its vertices at the precision of their numbers.
-    pub fn is_exact(&self) -> bool {
-        self.rms <= PRECISION
-    }
-}
-
-/// Root mean square distance of vertices stored in single precision from the surface they were put on, in
-/// diagonals: 1e-8 to 2e-8 in exports, 1e-7 and more in surfaces that only come near.
-pub(crate) const PRECISION: f64 = 5e-8;
-
 /// The mesh as the search sees it.
 #[derive(Clone, Copy)]
 pub(crate) struct View<'a> {
+    /// Root mean square distance up to which vertices lie on a surface exactly.
+    pub precision: f64,
     pub positions: &'a [DVec3],
     pub pieces: &'a Pieces,
 }
@@ -112,14 +103,15 @@ impl View<'_> {
                 Kind::Plane | Kind::Cylinder | Kind::Cone => true,
                 Kind::Sphere | Kind::Torus => !self.lie_on_a_cone(&pieces, &points, tolerance),
             };
+        let rms = (squares / points.len() as f64).sqrt();
         Hypothesis {
-            rms: (squares / points.len() as f64).sqrt(),
+            rms,
+            exact: rms <= self.precision,
             strong,
             surface,
             sign,
             pieces,
             evidence,
-            tolerance,
         }
     }
 

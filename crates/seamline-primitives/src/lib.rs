@@ -28,7 +28,6 @@ use seamline_mesh::Topology;
 pub use surface::{Kind, Surface};
 
 use hypothesis::{Hypothesis, View};
-use parts::Form;
 use pieces::{NONE, Pieces, Triangles};
 use regions::Regions;
 use search::Search;
@@ -37,6 +36,10 @@ use select::{borders_speak_for, select};
 /// Distances, in diagonals of the bounding box, at which vertices still lie on a surface: that of an export
 /// in single precision, then those of kernels which store an approximation.
 const LADDER: [f64; 3] = [1e-6, 1e-5, 5e-5];
+
+/// Root mean square distance, in diagonals, of vertices stored in single precision from the surface they were
+/// put on: 1e-8 to 2e-8 in exports about the origin, 1e-7 and more in surfaces that only come near.
+const PRECISION: f64 = 5e-8;
 
 /// How flat a piece is, as a share of the tolerance.
 const FLATNESS: f64 = 0.3;
@@ -77,12 +80,18 @@ pub struct Found {
 ///
 /// Faces must be between vertices of `positions`; faces without area belong to a neighbour or to themselves.
 /// Nothing is found in a mesh without extent: one patch a connected piece then.
-pub fn find(positions: &[DVec3], topology: &Topology) -> Found {
+///
+/// `farthest` is the greatest coordinate in size the mesh was stored with, in the unit of `positions`: single
+/// precision is coarser far from the origin.
+pub fn find(positions: &[DVec3], topology: &Topology, farthest: f64) -> Found {
     let (centre, diagonal) = frame(positions, topology);
+    let precision = PRECISION.max(farthest / diagonal * f64::from(f32::EPSILON));
+    let ladder = LADDER.map(|tolerance| tolerance.max(20.0 * precision));
     let scaled: Vec<DVec3> = positions.iter().map(|&x| (x - centre) / diagonal).collect();
     let triangles = Triangles::of(&scaled, &topology.triangles);
-    let (pieces, mut regions) = climb(&scaled, topology, &triangles);
+    let (pieces, mut regions) = climb(&scaled, topology, &triangles, ladder, precision);
     let view = View {
+        precision,
         positions: &scaled,
         pieces: &pieces,
     };
@@ -91,7 +100,7 @@ pub fn find(positions: &[DVec3], topology: &Topology) -> Found {
     for region in doubtful {
         regions.dissolve(region);
     }
-    let mut parts = parts::parts(view, topology, &regions, LADDER[0]);
+    let mut parts = parts::parts(view, topology, &regions, ladder[0]);
     parts::join_islands(view, &regions, &mut parts);
     let mut of_face: Vec<u32> = pieces
         .of_face
@@ -102,7 +111,7 @@ pub fn find(positions: &[DVec3], topology: &Topology) -> Found {
     let surfaces = describe::surfaces(view, &regions, &parts, &of_face);
     let exact = regions
         .alive()
-        .filter(|&r| regions.all[r as usize].is_exact());
+        .filter(|&r| regions.all[r as usize].exact);
     let exact: f64 = exact.map(|r| view.area(&regions.all[r as usize].pieces)).sum();
     let whole: f64 = triangles.areas.iter().sum();
     Found {
@@ -137,17 +146,20 @@ fn climb(
     positions: &[DVec3],
     topology: &Topology,
     triangles: &Triangles,
+    ladder: [f64; 3],
+    precision: f64,
 ) -> (Pieces, Regions) {
     let mut pieces = Pieces::default();
     let mut regions = Regions::default();
     let mut settled = vec![NONE; triangles.areas.len()];
-    for (rung, &tolerance) in LADDER.iter().enumerate() {
+    for (rung, &tolerance) in ladder.iter().enumerate() {
         let flat = FLATNESS * tolerance;
         let fewest = PLANE_VERTICES[rung];
         let next = Pieces::find(positions, topology, triangles, flat, &settled, fewest);
         regions = regions.moved(&pieces, &next);
         pieces = next;
         let view = View {
+            precision,
             positions,
             pieces: &pieces,
         };
@@ -202,7 +214,7 @@ fn step(view: View, topology: &Topology, regions: &mut Regions, rung: usize, tol
         _ => 100,
     };
     let enough = |h: &Hypothesis| {
-        h.strong && (rung > 0 || h.is_exact()) && h.evidence >= least(h.surface.kind)
+        h.strong && (rung > 0 || h.exact) && h.evidence >= least(h.surface.kind)
     };
     let mut rest = select(view, regions, found, tolerance, |_, h| enough(h));
     if rung == 0 {

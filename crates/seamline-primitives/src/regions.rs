@@ -48,13 +48,6 @@ impl Border {
 }
 
 impl Regions {
-    pub fn none(piece_count: usize) -> Self {
-        Self {
-            all: Vec::new(),
-            owner: vec![NONE; piece_count],
-        }
-    }
-
     pub fn accept(&mut self, hypothesis: Hypothesis) {
         for &piece in &hypothesis.pieces {
             self.owner[piece as usize] = self.all.len() as u32;

@@ -107,7 +107,7 @@ pub(crate) fn borders_speak_for(
         hypothesis.surface.kind,
         Kind::Torus | Kind::Sphere | Kind::Cylinder
     );
-    if by_tangency && !(hypothesis.strong && hypothesis.is_exact()) {
+    if by_tangency && !(hypothesis.strong && hypothesis.exact) {
         smooth > 0.0 && border.tangent >= TANGENT_SHARE * smooth
     } else {
         smooth == 0.0 || border.unexplained <= UNEXPLAINED_SHARE * smooth

@@ -55,7 +55,7 @@ fn is_natural(
     region: u32,
 ) -> bool {
     let own = &regions.all[region as usize];
-    let exact = own.strong && own.is_exact() && own.evidence >= ENOUGH_IF_EXACT;
+    let exact = own.strong && own.exact && own.evidence >= ENOUGH_IF_EXACT;
     if own.surface.kind == Kind::Plane || exact || own.evidence >= BEYOND_DOUBT {
         return true;
     }

@@ -15,6 +15,7 @@ use crate::curvature::principal_frames;
 use crate::eigen::free_principal_frame;
 use crate::face_patches::{FacePatches, number_patches};
 use crate::spatial_order::SpatialOrder;
+use crate::surfaces::{SurfaceSettings, patch_surfaces};
 use crate::tensor::{Bending, BendingColumns, TensorForm, face_tensors, over, vertex_tensors};
 
 pub(crate) fn systems() -> StageSystems {
@@ -56,6 +57,9 @@ fn collect(
     facet_of_face: Column<FaceSample>,
     samples: Column<Sample>,
     labels: Column<FaceLabel>,
+    face_surfaces: Column<FaceSurface>,
+    surfaces: Column<Surface>,
+    looked_for: Res<SurfaceSettings>,
 ) -> Segmentation {
     let bending = columns.lend();
     let curvatures = face_curvatures(&bending, &facet_of_face, &samples);
@@ -67,7 +71,15 @@ fn collect(
         labels: &labels,
         length: scale.length,
     };
-    describe(&mesh.0, &rows, patches)
+    let found = looked_for.enabled.then(|| {
+        let shapes = rows.bending.shapes;
+        patch_surfaces(patches.count, &labels, shapes, &face_surfaces, &surfaces)
+    });
+    let mut segmentation = describe(&mesh.0, &rows, patches);
+    for (patch, surface) in segmentation.patches.iter_mut().zip(found.into_iter().flatten()) {
+        patch.surface = Some(surface);
+    }
+    segmentation
 }
 
 /// A finished mesh in rows.
@@ -308,6 +320,7 @@ fn with_neighbours(summaries: Vec<PatchSummary>, boundaries: &[Boundary]) -> Vec
             PatchReport {
                 id: id as u32,
                 summary,
+                surface: None,
                 neighbours,
             }
         })

@@ -7,6 +7,7 @@ use seamline_ecs::{Column, Counts, MeshTopology, Stage, StageSystems, StepError,
 use seamline_mesh::{Sets, Topology};
 
 use crate::rounding::to_eight_digits;
+use crate::surfaces::{Settled, regions_of};
 
 pub(crate) fn vertex_systems() -> StageSystems {
     (fallible(check_clusters), grow_from_vertices.pipe(make_rows))
@@ -71,6 +72,7 @@ fn make_rows(In(grown): In<Grown>, world: &mut World) {
 }
 
 fn grow_from_facets(
+    settled: Res<Settled>,
     topology: Res<MeshTopology>,
     sharp: Column<SharpEdge>,
     facet_of_face: Column<FaceSample>,
@@ -78,6 +80,9 @@ fn grow_from_facets(
     samples: Column<Sample>,
     clusters: Column<SampleCluster>,
 ) -> Grown {
+    if let Some(patches) = &settled.0 {
+        return regions_of(patches, &facet_of_face, &shapes, &samples);
+    }
     grow_facets(
         &topology.0,
         &sharp,
@@ -104,6 +109,22 @@ pub fn grow_facets(
         .collect();
     let (of_face, count) = components(topology, sharp, &cluster_of_face);
 
+    let curvatures = mean_curvatures(&of_face, count, facet_of_face, shapes, samples);
+    Grown {
+        of_face,
+        curvatures,
+        cracks: 0,
+    }
+}
+
+/// The area mean of each region's facets' curvature.
+pub(crate) fn mean_curvatures(
+    of_face: &[u32],
+    count: usize,
+    facet_of_face: &[FaceSample],
+    shapes: &[FaceShape],
+    samples: &[Sample],
+) -> Vec<[f64; 2]> {
     let mut sums = vec![([0.0; 2], 0.0); count];
     for ((&region, facet), shape) in of_face.iter().zip(facet_of_face).zip(shapes) {
         let curvature = samples[facet.0 as usize].curvature;
@@ -118,11 +139,7 @@ pub fn grow_facets(
             [0.0; 2]
         }
     };
-    Grown {
-        of_face,
-        curvatures: sums.into_iter().map(mean).collect(),
-        cracks: 0,
-    }
+    sums.into_iter().map(mean).collect()
 }
 
 fn grow_from_vertices(

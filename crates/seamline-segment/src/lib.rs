@@ -22,6 +22,7 @@ mod rounding;
 mod score;
 mod sharp;
 mod spatial_order;
+mod surfaces;
 mod tensor;
 
 use std::sync::Arc;
@@ -46,6 +47,7 @@ pub use region_graph::{Link, Merged, RegionGraph};
 pub use score::{ScoreSettings, angle_score, curvature_score, facet_scores, vertex_scores};
 pub use sharp::{SharpSettings, dihedral_angles, sharp_edges, sharp_vertices};
 pub use spatial_order::SpatialOrder;
+pub use surfaces::{Settled, SurfaceSettings, patch_surfaces};
 pub use tensor::{Bending, TensorForm, TensorPair, edge_tensor, face_tensors, vertex_tensors};
 
 /// The built-in steps and their tables of settings.
@@ -54,6 +56,7 @@ pub fn builtin_steps() -> BuiltinSteps {
         tables: vec![
             SettingsTable::of::<MeshSettings>(),
             SettingsTable::of::<SharpSettings>(),
+            SettingsTable::of::<SurfaceSettings>(),
             SettingsTable::of::<CurvatureSettings>(),
             SettingsTable::of::<FacetSettings>(),
             SettingsTable::of::<MergeSettings>(),
@@ -66,6 +69,7 @@ pub fn builtin_steps() -> BuiltinSteps {
 fn install(in_force: &Table) -> Result<InstallStep, SettingsError> {
     let mesh: MeshSettings = read(in_force)?;
     let sharp: SharpSettings = read(in_force)?;
+    let surfaces: SurfaceSettings = read(in_force)?;
     let curvature: CurvatureSettings = read(in_force)?;
     let facets: FacetSettings = read(in_force)?;
     let merge: MergeSettings = read(in_force)?;
@@ -75,12 +79,17 @@ fn install(in_force: &Table) -> Result<InstallStep, SettingsError> {
         move |world: &mut World, schedule: &mut Schedule| {
             world.insert_resource(mesh.clone());
             world.insert_resource(sharp.clone());
+            world.insert_resource(surfaces.clone());
+            world.insert_resource(Settled::default());
             world.insert_resource(curvature.clone());
             world.insert_resource(facets.clone());
             world.insert_resource(merge.clone());
             world.insert_resource(score.clone());
 
             schedule.add_systems((import::systems(), face_shape::systems()));
+            if surfaces.enabled {
+                schedule.add_systems(surfaces::systems());
+            }
             let on_vertices = curvature.carrier == Carrier::Vertices;
             if on_vertices && sharp.enrich {
                 schedule.add_systems((sharp::systems(), enrich::systems()).chain());

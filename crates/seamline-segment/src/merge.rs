@@ -13,6 +13,7 @@ use crate::facets::FacetSettings;
 use crate::reduction::reduce;
 use crate::region_graph::{Link, RegionGraph};
 use crate::rounding::to_eight_digits;
+use crate::surfaces::Settled;
 
 /// How different two neighbouring regions are, `DC` in `D = DC N S`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
@@ -97,6 +98,7 @@ pub(crate) fn systems() -> StageSystems {
 fn merge_regions(
     settings: Res<MergeSettings>,
     facets: Res<FacetSettings>,
+    settled: Res<Settled>,
     topology: Res<MeshTopology>,
     positions: Column<Position>,
     shapes: Column<FaceShape>,
@@ -115,6 +117,11 @@ fn merge_regions(
         regions.to_vec(),
         border,
     );
+    let mut settings = settings.clone();
+    if settled.0.is_some() {
+        settings.threshold = f64::NEG_INFINITY;
+        settings.regions = 0;
+    }
     let (number, regions) = reduce(graph, &settings, facets.barely_curved, border);
     for label in labels.iter_mut() {
         label.0 = number[label.0 as usize];

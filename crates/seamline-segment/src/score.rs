@@ -13,6 +13,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::curvature::measure_vertices;
 use crate::eigen::tangent_principal_frame;
+use crate::surfaces::settle_scores;
 
 /// The `[score]` table.
 #[derive(Resource, Clone, Debug, Serialize, Deserialize, JsonSchema)]
@@ -57,7 +58,9 @@ pub(crate) fn vertex_systems() -> StageSystems {
 }
 
 pub(crate) fn facet_systems() -> StageSystems {
-    score_by_facets.in_set(Stage::Score)
+    (score_by_facets, settle_scores)
+        .chain()
+        .in_set(Stage::Score)
 }
 
 fn score_by_vertices(

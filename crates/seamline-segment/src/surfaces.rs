@@ -1,0 +1,201 @@
+//! Surfaces the vertices lie on exactly. Where they explain a mesh, its patches follow from them, and what the
+//! classifier says is not asked.
+
+use bevy_ecs::prelude::*;
+use glam::DVec3;
+use schemars::JsonSchema;
+use seamline_ecs::components::*;
+use seamline_ecs::results::{PatchSurface, SurfaceShape};
+use seamline_ecs::rows::{self, Surfaces};
+use seamline_ecs::settings::{OutOfRange, Profile, StepSettings};
+use seamline_ecs::{
+    Column, ColumnMut, Counts, InputMesh, MeshScale, MeshTopology, Stage, StageSystems,
+};
+use seamline_primitives::{Fitted, Found, Kind, find};
+use serde::{Deserialize, Serialize};
+
+use crate::grow::{Grown, mean_curvatures};
+
+/// The `[surfaces]` table: planes, cylinders, cones, spheres and tori the vertices lie on.
+#[derive(Resource, Clone, Debug, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct SurfaceSettings {
+    /// Are surfaces looked for? Curvature must lie on facets.
+    pub enabled: bool,
+    /// Share of the area that must lie exactly on surfaces for the patches to follow from them; below it
+    /// (noise, scans, natural shapes) curvature leads. The least of any CAD export measured is .06, a
+    /// loft between two flat ends; scans have 0.
+    pub least_exact_share: f64,
+}
+
+impl StepSettings for SurfaceSettings {
+    const TABLE: &'static str = "surfaces";
+
+    fn defaults(profile: Profile) -> Self {
+        Self {
+            enabled: profile == Profile::Cad,
+            least_exact_share: 0.05,
+        }
+    }
+
+    fn check(&self) -> Result<(), OutOfRange> {
+        OutOfRange::unless(
+            (0.0..=1.0).contains(&self.least_exact_share),
+            "least_exact_share",
+            "a share of the whole area from 0 to 1",
+        )
+    }
+}
+
+/// The patch of each face where surfaces explain the mesh; else `None`.
+#[derive(Resource, Clone, Debug, Default)]
+pub struct Settled(pub Option<Vec<u32>>);
+
+pub(crate) fn systems() -> StageSystems {
+    look.pipe(make_rows).in_set(Stage::Surfaces)
+}
+
+fn look(
+    topology: Res<MeshTopology>,
+    mesh: Res<InputMesh>,
+    scale: Res<MeshScale>,
+    positions: Column<Position>,
+) -> Found {
+    let positions: Vec<DVec3> = positions.iter().map(|p| p.0).collect();
+    let [low, high] = mesh.0.bounding_box();
+    let farthest = low.abs().max(high.abs()).max_element();
+    find(&positions, &topology.0, farthest / scale.length)
+}
+
+fn make_rows(In(found): In<Found>, world: &mut World) {
+    let settings = world.resource::<SurfaceSettings>();
+    let explains = found.exact_share >= settings.least_exact_share;
+    let scale = *world.resource::<MeshScale>();
+    rows::resize::<Surfaces>(world, found.surfaces.len());
+    for (row, fitted) in rows::column_mut::<Surface>(world)
+        .iter_mut()
+        .zip(&found.surfaces)
+    {
+        row.0 = fitted.map_or(PatchSurface::default(), |f| described(&f, &scale));
+    }
+    for (row, &surface) in rows::column_mut::<FaceSurface>(world)
+        .iter_mut()
+        .zip(&found.of_face)
+    {
+        row.0 = surface;
+    }
+    let known = found.surfaces.iter().flatten().count();
+    world
+        .resource_mut::<Counts>()
+        .note(Stage::Surfaces, "surfaces", known);
+    world.insert_resource(Settled(explains.then_some(found.of_face)));
+}
+
+/// A surface in the file's unit.
+fn described(fitted: &Fitted, scale: &MeshScale) -> PatchSurface {
+    let surface = &fitted.surface;
+    let point = |x: DVec3| (x * scale.length + scale.centre).to_array();
+    let axis = surface.axis.to_array();
+    let radius = surface.a * scale.length;
+    let shape = match surface.kind {
+        Kind::Plane => SurfaceShape::Plane {
+            point: point(surface.point),
+            normal: axis,
+        },
+        Kind::Cylinder => SurfaceShape::Cylinder {
+            point: point(surface.point),
+            axis,
+            radius,
+        },
+        Kind::Cone => SurfaceShape::Cone {
+            apex: point(surface.point - surface.axis * (surface.a / surface.b.tan())),
+            axis,
+            half_angle_deg: surface.b.to_degrees(),
+        },
+        Kind::Sphere => SurfaceShape::Sphere {
+            centre: point(surface.point),
+            radius,
+        },
+        Kind::Torus => SurfaceShape::Torus {
+            centre: point(surface.point),
+            axis,
+            major_radius: radius,
+            minor_radius: surface.b * scale.length,
+        },
+    };
+    let proved = f64::from(fitted.evidence) / (f64::from(fitted.evidence) + 1.0);
+    PatchSurface {
+        shape,
+        concave: (surface.kind != Kind::Plane).then_some(!fitted.convex),
+        residual: Some(fitted.residual * scale.length),
+        confidence: Some(if fitted.exact { proved } else { proved / 2.0 }),
+    }
+}
+
+/// Regions that are the patches already.
+pub(crate) fn regions_of(
+    patches: &[u32],
+    facet_of_face: &[FaceSample],
+    shapes: &[FaceShape],
+    samples: &[Sample],
+) -> Grown {
+    let count = patches.iter().max().map_or(0, |&last| last as usize + 1);
+    Grown {
+        of_face: patches.to_vec(),
+        curvatures: mean_curvatures(patches, count, facet_of_face, shapes, samples),
+        cracks: 0,
+    }
+}
+
+/// Where surfaces explain the mesh, every boundary edge is a good one.
+pub(crate) fn settle_scores(
+    settled: Res<Settled>,
+    topology: Res<MeshTopology>,
+    labels: Column<FaceLabel>,
+    mut scores: ColumnMut<BoundaryScore>,
+) {
+    if settled.0.is_none() {
+        return;
+    }
+    for (edge, score) in scores.iter_mut().enumerate() {
+        if let Some([a, b]) = topology.0.face_pair(edge)
+            && labels[a as usize] != labels[b as usize]
+        {
+            score.0 = 0.0;
+        }
+    }
+}
+
+/// Share of a patch's area that must lie on one surface for the patch to be told to be it.
+const PATCH_SHARE: f64 = 0.9;
+
+/// The surface of each patch: that of most of its area.
+pub fn patch_surfaces(
+    patch_count: usize,
+    labels: &[FaceLabel],
+    shapes: &[FaceShape],
+    of_face: &[FaceSurface],
+    surfaces: &[Surface],
+) -> Vec<PatchSurface> {
+    let mut shares: Vec<(u32, u32, f64)> = labels
+        .iter()
+        .zip(of_face)
+        .zip(shapes)
+        .map(|((label, surface), shape)| (label.0, surface.0, shape.area))
+        .collect();
+    shares.sort_unstable_by_key(|&(patch, surface, _)| (patch, surface));
+    let mut found = vec![PatchSurface::default(); patch_count];
+    for patch in shares.chunk_by(|a, b| a.0 == b.0) {
+        let area = |faces: &[(u32, u32, f64)]| faces.iter().map(|face| face.2).sum::<f64>();
+        let most = patch
+            .chunk_by(|a, b| a.1 == b.1)
+            .max_by(|a, b| area(a).total_cmp(&area(b)));
+        if let Some(most) = most
+            && area(most) >= PATCH_SHARE * area(patch)
+            && let Some(surface) = surfaces.get(most[0].1 as usize)
+        {
+            found[patch[0].0 as usize] = surface.0;
+        }
+    }
+    found
+}

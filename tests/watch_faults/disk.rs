@@ -199,3 +199,26 @@ fn a_full_disk_is_escaped_by_another_output_folder() {
     assert_eq!(seamline_tests::daemon::leftovers(&disk), [""; 0]);
     assert_eq!(daemon.terminate(), Some(0));
 }
+
+/// The new content is entered while the old is still being read: the old is gone then, and nothing waits in the end.
+#[test]
+fn what_is_replaced_while_it_is_read_does_not_wait_for_ever() {
+    let home = Home::with("stable_for_ms = 100\n");
+    let Some(disk) = FailingDisk::new(&home) else {
+        return;
+    };
+    disk.hold();
+    let daemon = home.start_as(disk.under(&mut home.watch(), "inbox/slow", EIO));
+    home.drop("slow.obj", cuboid(1.0));
+    daemon.wait_for("the read to begin", || disk.is_holding());
+    home.drop("slow.obj", cuboid(2.0));
+    daemon.wait_for("the new content to be entered", || {
+        home.status().jobs_of("slow.obj").len() == 2
+    });
+    disk.let_go();
+    daemon.wait_for("the result", || home.status().is("slow.obj", "done"));
+    let status = home.status();
+    let states: Vec<_> = status.jobs.iter().map(|job| &job.state[..]).collect();
+    assert_eq!(states, ["gone", "done"], "{status:#?}");
+    assert_eq!(daemon.terminate(), Some(0));
+}

@@ -65,7 +65,7 @@ fn poison_file_quarantined() {
     daemon.wait_for("the good results", || home.results().names().len() == 5);
     for (name, attempts) in [("a/bad.stl", 1), ("a/bad.obj", 1), ("a/sector.obj", 3)] {
         daemon.wait_for(name, || home.reason(name).is_some());
-        daemon.wait_for(name, || home.status().is(name, "quarantined"));
+        daemon.wait_for(name, || home.status().only(name).source.is_some());
         let reason = home.reason(name).unwrap();
         for key in ["stage", "message", "hint", "path", "program_version"] {
             let told = reason[key].as_str().is_some_and(|text| !text.is_empty());

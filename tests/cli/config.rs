@@ -1,7 +1,5 @@
 //! Configurations: checked before anything is done, and described by a schema.
 
-use serde_json::Value;
-
 use crate::home::Home;
 
 #[test]
@@ -32,7 +30,7 @@ fn a_wrong_configuration_is_told_by_file_line_and_key() {
             "watch.toml:3: watch.recursiv",
         ),
         (
-            "[[watch]]\nroot = \"nowhere\"\n",
+            "[[watch]]\nroot = \"inbox/readme.txt\"\n",
             "watch.toml:2: watch.root",
         ),
         (
@@ -67,9 +65,22 @@ fn a_wrong_configuration_is_told_by_file_line_and_key() {
 }
 
 #[test]
+fn a_watched_folder_that_is_not_there_yet_is_right_and_said_to_be_absent() {
+    let home = Home::new();
+    home.put("watch.toml", "[[watch]]\nroot = \"later\"\n");
+    let absent = |home: &Home| {
+        let ran = home.run("config check watch.toml").ended(0);
+        ran.out.contains("later, which is not there yet\n")
+    };
+    assert!(absent(&home));
+    assert_eq!(home.listed("."), ["watch.toml"]);
+    home.put("later/part.obj", "");
+    assert!(!absent(&home));
+}
+
+#[test]
 fn the_schema_is_json_and_names_every_table() {
-    let ran = Home::new().run("config schema").ended(0);
-    let schema: Value = serde_json::from_str(&ran.out).expect("JSON");
+    let schema = Home::new().run("config schema").json();
     let frame = ["watch", "output", "state", "quarantine", "pipeline"];
     let steps = [
         "mesh",

@@ -86,8 +86,7 @@ impl Home {
     /// The settings in force of a run of `segment` with these arguments on the bracket.
     pub fn settings_in_force(&self, line: &str, environment: &[(&str, &str)]) -> Value {
         let mut command = self.command(&format!("segment bracket.obj -q --json {line}"));
-        let ran = run(command.envs(environment.iter().copied())).ended(0);
-        let report: Value = serde_json::from_str(&ran.out).expect("a report on standard output");
+        let report = run(command.envs(environment.iter().copied())).json();
         report["settings"].clone()
     }
 }

@@ -61,7 +61,7 @@ fn plugins_lists_what_can_fill_each_stage_with_its_settings() {
     ] {
         assert!(words.contains(word), "{word}: {words}");
     }
-    let json: Value = serde_json::from_str(&home.run("plugins --json").ended(0).out).expect("JSON");
+    let json = home.run("plugins --json").json();
     let listed: Vec<_> = json["plugins"]
         .as_array()
         .expect("a list")

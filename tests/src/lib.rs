@@ -62,6 +62,16 @@ impl Ran {
         assert_eq!(self.code, Some(code), "{self:#?}");
         self
     }
+
+    /// What it printed, as one piece of JSON.
+    ///
+    /// # Panics
+    ///
+    /// If it did not end well, or printed something else.
+    #[track_caller]
+    pub fn json(self) -> serde_json::Value {
+        serde_json::from_str(&self.ended(0).out).expect("JSON on standard output")
+    }
 }
 
 /// Runs a command to its end.

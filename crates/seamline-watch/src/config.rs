@@ -1,8 +1,7 @@
 //! The configuration: one TOML file, of which the frame is read here and the rest is the pipeline's.
 //!
-//! Relative paths are relative to the file. An unknown key, a value of the wrong kind, a folder that does
-//! not exist or that would feed itself is an error with file, line and key; nothing is done before all of
-//! it holds.
+//! Relative paths are relative to the file. An unknown key, a value of the wrong kind, a folder that would
+//! feed itself is an error with file, line and key; nothing is done before all of it holds.
 
 mod error;
 mod file;
@@ -43,7 +42,8 @@ pub struct Watched {
     pub exclude: Patterns,
     /// How long size and time of change must have held still.
     pub stable_for: Duration,
-    /// How long a file that ends early is taken for one that is still being written.
+    /// How long a file that ends early is taken for one that is still being written, and one that changes all the
+    /// time is waited for by a run that is to have an end.
     pub max_wait: Duration,
     /// How changes are noticed.
     pub watcher: Watcher,
@@ -53,10 +53,21 @@ pub struct Watched {
     pub after: After,
 }
 
+impl Watched {
+    /// Is this the folder itself, or a place in it that is looked into?
+    pub fn looks_at(&self, path: &Path) -> bool {
+        if self.recursive {
+            path.starts_with(&self.root)
+        } else {
+            path == self.root || path.parent() == Some(&self.root)
+        }
+    }
+}
+
 /// A configuration, checked: folders absolute, defaults filled in.
 #[derive(Clone, Debug)]
 pub struct Config {
-    /// The watched folders; none is twice among them, none lies in another.
+    /// The watched folders; none is twice among them, none lies in another that is looked into below.
     pub watch: Vec<Watched>,
     /// Where results go.
     pub output: PathBuf,
@@ -101,8 +112,9 @@ impl Config {
     ///
     /// # Errors
     ///
-    /// An unknown key, a value of the wrong kind or out of range, a watched folder that does not exist, and
-    /// folders of which one would feed the other.
+    /// An unknown key, a value of the wrong kind or out of range, a file in place of a watched folder, and
+    /// folders of which one would feed the other. A watched folder that is not there is none: it may be a share
+    /// that is not mounted yet.
     pub fn from_file(file: &ConfigFile) -> Result<Self, ConfigError> {
         let tables = file.tables();
         let output: OutputTable = file.table(tables.get("output"), "output")?;
@@ -150,10 +162,27 @@ impl Config {
         place(file, "state.dir", &state.dir)
     }
 
+    /// The watched folder that a path belongs to; nothing if none looks there.
+    pub fn watched_with(&self, path: &Path) -> Option<&Watched> {
+        innermost(self.watch.iter(), path, |watched| watched)
+    }
+
     /// The tables that belong to the pipeline, untouched.
     pub fn pipeline_settings(&self) -> &Table {
         &self.pipeline
     }
+}
+
+/// Of `roots`, the one that a path belongs to. A folder that is not looked into below may have another watched one in
+/// it, and sees that as a name: the inner one counts.
+pub(crate) fn innermost<T>(
+    roots: impl Iterator<Item = T>,
+    path: &Path,
+    watched: impl Fn(&T) -> &Watched,
+) -> Option<T> {
+    roots
+        .filter(|root| watched(root).looks_at(path))
+        .max_by_key(|root| watched(root).root.as_os_str().len())
 }
 
 /// The folder that a configuration names, which is relative to the file.
@@ -198,18 +227,9 @@ fn watched(
         let key = format!("{here}.root");
         let table: WatchTable = file.table(Some(element), &here)?;
         let root = place(&key, &table.root)?;
-        if !root.is_dir() {
-            let found = if root.exists() {
-                "is not a folder"
-            } else {
-                "does not exist"
-            };
-            let reason = format!("{} {found}", root.display());
-            return Err(refuse(
-                &key,
-                reason,
-                "create the folder, or name one that exists",
-            ));
+        if root.exists() && !root.is_dir() {
+            let reason = format!("{} is not a folder", root.display());
+            return Err(refuse(&key, reason, "name a folder"));
         }
         let patterns = |key: &str, patterns: &[String]| {
             Patterns::new(patterns).map_err(|error| {

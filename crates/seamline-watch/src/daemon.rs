@@ -12,7 +12,6 @@ mod job;
 mod lookout;
 mod reload;
 
-use std::collections::HashMap;
 use std::fs;
 use std::io;
 use std::path::PathBuf;
@@ -23,9 +22,9 @@ use tracing::{info, warn};
 
 use crate::config::{After, Config};
 use crate::events::Events;
-use crate::health::{Health, Trouble};
+use crate::health::Health;
 use crate::http::{self, ServeError};
-use crate::ledger::{JobState, Ledger, LedgerError, Reader};
+use crate::ledger::{Ledger, LedgerError, Reader};
 use crate::lock::{InstanceLock, LockError};
 use crate::metrics::Metrics;
 use crate::mounts::trusts_events;
@@ -102,6 +101,9 @@ pub enum WatchError {
     /// The threads ended by themselves.
     #[error("the threads that read, cut and write have ended unexpectedly")]
     CrewLost,
+    /// A watched folder is not there, and the run is not one that waits for it.
+    #[error("the watched folder {} is not there", .0.display())]
+    NotThere(PathBuf),
     /// The state folder was deleted or replaced while it was in use.
     #[error("the state folder {} was taken away", .0.display())]
     StateGone(PathBuf),
@@ -122,6 +124,7 @@ impl WatchError {
             Self::CrewLost => {
                 "this is a mistake in the program: please report what was said before"
             }
+            Self::NotThere(_) => "create or mount it; without `--once` it is waited for",
             Self::StateGone(_) => {
                 "start again; without its ledger everything in the watched folders is cut anew"
             }
@@ -147,10 +150,13 @@ pub fn run(
     options: RunOptions,
     orders: Receiver<Order>,
 ) -> Result<Summary, WatchError> {
+    if options.once || options.dry_run {
+        check_presence(&setup.config)?;
+    }
     let mut lookout = Lookout::new(&setup.config, options.once);
     if options.dry_run {
         return Ok(Summary {
-            listed: not_done_yet(lookout.list(), &setup),
+            listed: still_to_be_cut(lookout.list(), &setup),
             ..Summary::default()
         });
     }
@@ -161,10 +167,6 @@ pub fn run(
     sweep(config);
 
     let (health, metrics) = (Arc::new(Health::new()), Arc::new(Metrics::new(VERSION)));
-    health.raise(
-        Trouble::Starting,
-        "the folders have not been looked into yet",
-    );
     let serving = config
         .http
         .map(|listen| http::serve(listen, health.clone(), metrics.clone()))
@@ -200,19 +202,27 @@ pub fn run(
     ended
 }
 
-/// The files that are not done in the state they are in, as far as there is a ledger to tell.
-fn not_done_yet(files: Vec<FileFact>, setup: &Setup) -> Vec<PathBuf> {
-    let ledger = Reader::open(&setup.config.state);
-    let rows = ledger.and_then(|ledger| ledger.rows()).unwrap_or_default();
-    let last: HashMap<_, _> = rows.iter().map(|row| (&row.path, row)).collect();
-    let is_done = |file: &FileFact| {
-        last.get(&file.path).is_some_and(|row| {
-            row.state == JobState::Done
-                && row.stamp == file.stamp.word()
-                && row.settings.as_ref() == Some(&setup.settings_hash)
+/// Who wants an end is told of a folder that is not there: nothing of it would be done.
+fn check_presence(config: &Config) -> Result<(), WatchError> {
+    let mut roots = config.watch.iter().map(|watched| &watched.root);
+    match roots.find(|root| !root.is_dir()) {
+        Some(missing) => Err(WatchError::NotThere(missing.clone())),
+        None => Ok(()),
+    }
+}
+
+/// The files that have not ended in the state they are in, as far as there is a ledger to tell.
+fn still_to_be_cut(files: Vec<FileFact>, setup: &Setup) -> Vec<PathBuf> {
+    let ledger = Reader::open(&setup.config.state).ok();
+    let has_ended = |file: &FileFact| {
+        let settings = &setup.settings_hash;
+        let known = ledger.as_ref();
+        known.is_some_and(|ledger| {
+            let ended = ledger.has_ended(&file.path, &file.stamp.word(), settings);
+            ended.unwrap_or(false)
         })
     };
-    let open = files.into_iter().filter(|file| !is_done(file));
+    let open = files.into_iter().filter(|file| !has_ended(file));
     open.map(|file| file.path).collect()
 }
 

@@ -113,12 +113,6 @@ impl Events {
         !matches!(self.ear(root), Some(Ear::Native(_)))
     }
 
-    /// Is this root polled for no other reason than that it was not there? Then [`Events::hear_again`] once it
-    /// is.
-    pub fn waits_for(&self, root: &Path) -> bool {
-        matches!(self.ear(root), Some(Ear::Waiting))
-    }
-
     fn ear(&self, root: &Path) -> Option<&Ear> {
         let mut roots = self.roots.iter();
         let root = roots.find(|known| known.watched.root == root)?;

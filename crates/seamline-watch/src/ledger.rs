@@ -1,8 +1,8 @@
 //! What became of every file: one row a job, on disk, across restarts and crashes.
 //!
 //! A job is one file at one path in one state of its bytes. Its row is `pending` from when the file held
-//! still, `running` while it is worked on, then `done`, `quarantined`, or `gone` if the file went away before
-//! it was read. A row says `done` only after the results are on disk, and that is written before anything
+//! still, `running` while it is worked on, then `done`, `quarantined`, or `gone` if the file went away or was
+//! replaced before that. A row says `done` only after the results are on disk, and that is written before anything
 //! happens to the source: whatever a crash comes between is done again and comes to the same.
 //!
 //! What is cut is known by its bytes and the settings, never by its name: [`Reader::known`] finds what need not
@@ -80,18 +80,26 @@ impl Ledger {
         Ok(ledger)
     }
 
+    /// Changes when anybody writes to the ledger.
+    pub fn version(&self) -> Result<(i64, u64), LedgerError> {
+        Ok((self.version_elsewhere()?, self.connection.total_changes()))
+    }
+
+    fn version_elsewhere(&self) -> Result<i64, LedgerError> {
+        let mut version = self.connection.prepare_cached("PRAGMA data_version")?;
+        Ok(version.query_row([], |row| row.get(0))?)
+    }
+
     /// Has another process written to the ledger since this was asked last?
     pub fn changed_elsewhere(&mut self) -> Result<bool, LedgerError> {
-        let version = self
-            .connection
-            .query_row("PRAGMA data_version", [], |row| row.get(0))?;
+        let version = self.version_elsewhere()?;
         let changed = version != self.seen_version;
         self.seen_version = version;
         Ok(changed)
     }
 
     /// Sets right what a crash left: what was running is pending again, and suspected of having brought the
-    /// program down, so that it is begun alone. What was alone [`MOST_CRASHES`] times when the program came to its
+    /// program down, so that it is begun alone; of each path the last job only, the others are gone. What was alone [`MOST_CRASHES`] times when the program came to its
     /// end goes into quarantine. To be called once, by whoever has the state folder to itself. Gives how many
     /// there were of each.
     pub fn recover(&mut self) -> Result<(usize, usize), LedgerError> {
@@ -113,6 +121,11 @@ impl Ledger {
             "UPDATE jobs SET state = 'pending' WHERE state = 'running'",
             [],
         )?;
+        transaction.execute(
+            "UPDATE jobs AS job SET state = 'gone', ended_at = ?1 WHERE state = 'pending' \
+             AND EXISTS (SELECT 1 FROM jobs WHERE path = job.path AND id > job.id)",
+            [now_ms()],
+        )?;
         transaction.commit()?;
         Ok((again, given_up))
     }
@@ -127,13 +140,31 @@ impl Ledger {
         )?)
     }
 
-    /// The job was begun and not worked on: it waits again, and that does not count as an attempt.
-    pub fn put_back(&mut self, id: JobId) -> Result<(), LedgerError> {
+    /// The job was begun and not worked on: it waits again, and that does not count as an attempt. False if other
+    /// content has come under the same name meanwhile, which has a job of its own: then this one is gone.
+    pub fn put_back(&mut self, id: JobId) -> Result<bool, LedgerError> {
+        self.wait_again(id, false)
+    }
+
+    fn wait_again(&self, id: JobId, counts: bool) -> Result<bool, LedgerError> {
+        let followed = "SELECT 1 FROM jobs AS job JOIN jobs AS later ON later.path = job.path \
+                        AND later.id > job.id WHERE job.id = ?1";
+        let followed = self.connection.prepare_cached(followed)?.exists([id.0])?;
+        let state = if followed {
+            JobState::Gone
+        } else {
+            JobState::Pending
+        };
         self.connection.execute(
-            "UPDATE jobs SET state = 'pending', attempts = max(attempts - 1, 0) WHERE id = ?1",
-            [id.0],
+            "UPDATE jobs SET state = ?2, attempts = max(attempts - ?3, 0), ended_at = ?4 WHERE id = ?1",
+            params![
+                id.0,
+                state.word(),
+                u32::from(!counts),
+                followed.then(now_ms)
+            ],
         )?;
-        Ok(())
+        Ok(!followed)
     }
 
     /// As [`Ledger::put_back`], unless the job has ended and only its file is still to be dealt with.
@@ -145,15 +176,18 @@ impl Ledger {
         Ok(())
     }
 
-    /// The job failed and is to be tried again. `counts`: as an attempt.
-    pub fn postpone(&mut self, id: JobId, fault: &Fault, counts: bool) -> Result<(), LedgerError> {
+    /// The job failed and is to be tried again. `counts`: as an attempt. False as for [`Ledger::put_back`].
+    pub fn postpone(
+        &mut self,
+        id: JobId,
+        fault: &Fault,
+        counts: bool,
+    ) -> Result<bool, LedgerError> {
+        let transaction = self.connection.unchecked_transaction()?;
         self.set_fault(id, fault, None)?;
-        if counts {
-            self.connection
-                .execute("UPDATE jobs SET state = 'pending' WHERE id = ?1", [id.0])?;
-            return Ok(());
-        }
-        self.put_back(id)
+        let waits = self.wait_again(id, counts)?;
+        transaction.commit()?;
+        Ok(waits)
     }
 
     /// The job failed for good. To be called before the file is moved.
@@ -225,8 +259,7 @@ impl Ledger {
     }
 
     /// The bytes of the job were cut before, by `holder`, which has the results. If that was at the same path,
-    /// they are this job's from now on. False, and nothing is changed, if
-    /// `holder` has lost its results meanwhile.
+    /// they are this job's from now on. False, and nothing is changed, if `holder` has lost its results meanwhile.
     pub fn same_content(
         &mut self,
         id: JobId,
@@ -295,15 +328,22 @@ impl Ledger {
         Ok(rows.collect::<Result<_, _>>()?)
     }
 
-    /// How long ago the pending job that has waited longest was queued, by the clock on the wall.
-    pub fn oldest_pending(&self) -> Result<Option<Duration>, LedgerError> {
-        let queued: Option<i64> = self.connection.query_row(
-            "SELECT min(queued_at) FROM jobs WHERE state = 'pending'",
-            [],
-            |row| row.get(0),
+    /// When the pending job that has waited longest was queued, of those on files that are `watched`. Those of a
+    /// folder that is watched no longer wait until it is again, or for ever.
+    pub fn oldest_pending(
+        &self,
+        watched: impl Fn(&Path) -> bool,
+    ) -> Result<Option<SystemTime>, LedgerError> {
+        let mut pending = self.connection.prepare_cached(
+            "SELECT path, queued_at FROM jobs WHERE state = 'pending' ORDER BY queued_at",
         )?;
-        Ok(queued
-            .map(|queued| Duration::from_millis(now_ms().saturating_sub(queued).max(0) as u64)))
+        let mut rows = pending.query([])?;
+        while let Some(row) = rows.next()? {
+            if watched(&row::path(row, 0)?) {
+                return Ok(Some(row::at(row.get(1)?)));
+            }
+        }
+        Ok(None)
     }
 }
 
@@ -317,14 +357,20 @@ fn prepare(connection: &Connection, path: &Path) -> Result<(), LedgerError> {
     connection
         .pragma_update(None, "synchronous", "normal")
         .map_err(of_file)?;
-    let version: i64 = connection
-        .query_row("PRAGMA user_version", [], |row| row.get(0))
-        .map_err(of_file)?;
-    match version {
-        0 => connection
-            .execute_batch(&format!("BEGIN IMMEDIATE; {SCHEMA} COMMIT;"))
-            .map_err(of_file),
-        SCHEMA_VERSION => Ok(()),
+    if is_made(connection, path)? {
+        return Ok(());
+    }
+    connection
+        .execute_batch(&format!("BEGIN IMMEDIATE; {SCHEMA} COMMIT;"))
+        .map_err(of_file)
+}
+
+/// Has the ledger its tables, in the form that is known here?
+fn is_made(connection: &Connection, path: &Path) -> Result<bool, LedgerError> {
+    let version = connection.query_row("PRAGMA user_version", [], |row| row.get(0));
+    match version.map_err(|error| LedgerError::at(path, error))? {
+        0 => Ok(false),
+        SCHEMA_VERSION => Ok(true),
         found => Err(LedgerError::Version {
             path: path.to_owned(),
             found,
@@ -342,16 +388,10 @@ fn open_existing(state: &Path, flags: OpenFlags) -> Result<Connection, LedgerErr
     let connection =
         Connection::open_with_flags(&path, flags).map_err(|error| LedgerError::at(&path, error))?;
     connection.busy_timeout(BUSY_FOR)?;
-    let version: i64 = connection
-        .query_row("PRAGMA user_version", [], |row| row.get(0))
-        .map_err(|error| LedgerError::at(&path, error))?;
-    if version == SCHEMA_VERSION {
+    if is_made(&connection, &path)? {
         Ok(connection)
     } else {
-        Err(LedgerError::Version {
-            path,
-            found: version,
-        })
+        Err(LedgerError::None { path })
     }
 }
 

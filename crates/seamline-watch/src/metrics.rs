@@ -13,6 +13,8 @@ use prometheus_client::metrics::histogram::Histogram;
 use prometheus_client::registry::{Registry, Unit};
 use seamline_ecs::Stage;
 
+use crate::ledger::JobState;
+
 /// The content type of [`Metrics::encode`].
 pub const CONTENT_TYPE: &str = "application/openmetrics-text; version=1.0.0; charset=utf-8";
 
@@ -20,7 +22,6 @@ pub const CONTENT_TYPE: &str = "application/openmetrics-text; version=1.0.0; cha
 const AROUND: [&str; 3] = ["read", "write", "settle"];
 /// The stage of what has another name than those known.
 const OTHER: &str = "other";
-const JOB_STATES: [&str; 5] = ["pending", "running", "done", "quarantined", "gone"];
 
 /// Bounds of the times, in seconds, from 1 ms (the stages of a part of some thousand triangles) to 10 min
 /// (when a job is given up by default). Times spread evenly over the powers of ten, so the bounds do too: three
@@ -128,8 +129,8 @@ impl Metrics {
         for kind in OutcomeKind::ALL {
             drop(self.outcomes.get_or_create(&[("outcome", kind.name())]));
         }
-        for state in JOB_STATES {
-            drop(self.jobs.get_or_create(&[("state", state)]));
+        for state in JobState::ALL {
+            drop(self.jobs.get_or_create(&[("state", state.word())]));
         }
         for stage in stage_names() {
             drop(self.stages.get_or_create(&[("stage", stage)]));
@@ -277,15 +278,12 @@ impl Metrics {
         self.reloads.get_or_create(&[("result", result)]).inc();
     }
 
-    /// How many jobs of the ledger are in each state: `pending`, `running`, `done`, `quarantined`, `gone`. A
-    /// state that is not named keeps its number, another name is left out.
-    pub fn set_jobs(&self, counts: &[(&str, u64)]) {
-        for state in JOB_STATES {
-            if let Some((_, count)) = counts.iter().find(|(name, _)| *name == state) {
-                self.jobs
-                    .get_or_create(&[("state", state)])
-                    .set(level(*count));
-            }
+    /// How many jobs of the ledger are in each state. A state that is not named keeps its number.
+    pub fn set_jobs(&self, counts: &[(JobState, u64)]) {
+        for (state, count) in counts {
+            self.jobs
+                .get_or_create(&[("state", state.word())])
+                .set(level(*count));
         }
     }
 

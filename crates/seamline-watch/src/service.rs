@@ -5,7 +5,6 @@
 
 use std::io;
 use std::sync::Once;
-use std::time::Duration;
 
 use sd_notify::NotifyState;
 use tracing::warn;
@@ -39,17 +38,9 @@ pub fn status(text: &str) {
     tell(&[NotifyState::Status(&line)]);
 }
 
-/// The daemon is alive. To be said every [`watchdog_interval`], and only while it is true.
+/// The daemon is alive. To be said once a second, and only while it is true.
 pub fn alive() {
     tell(&[NotifyState::Watchdog]);
-}
-
-/// How often to say [`alive`]: half of the time after which the service manager takes the daemon for dead.
-/// `None`: it does not want to hear it.
-pub fn watchdog_interval() -> Option<Duration> {
-    sd_notify::watchdog_enabled()
-        .map(|limit| limit / 2)
-        .filter(|interval| !interval.is_zero())
 }
 
 fn tell(states: &[NotifyState<'_>]) {
@@ -69,6 +60,7 @@ mod tests {
     use std::os::unix::net::UnixDatagram;
     use std::path::Path;
     use std::process::Command;
+    use std::time::Duration;
 
     use super::*;
 
@@ -79,9 +71,7 @@ mod tests {
         let name = format!("service::tests::{test}");
         let mut command = Command::new(env::current_exe().unwrap());
         command.args([&name, "--exact"]).env(CHILD, "1");
-        for key in ["NOTIFY_SOCKET", "WATCHDOG_USEC", "WATCHDOG_PID"] {
-            command.env_remove(key);
-        }
+        command.env_remove("NOTIFY_SOCKET");
         let output = command.envs(settings.iter().copied()).output().unwrap();
         let said = String::from_utf8_lossy(&output.stdout);
         assert!(output.status.success(), "{said}");
@@ -153,7 +143,6 @@ mod tests {
         status("idle");
         alive();
         stopping();
-        assert_eq!(watchdog_interval(), None);
     }
 
     #[test]
@@ -168,32 +157,6 @@ mod tests {
         in_a_child(
             "a_service_manager_that_went_away_stops_nobody",
             &[("NOTIFY_SOCKET", path.to_str().unwrap())],
-        );
-    }
-
-    #[test]
-    fn the_watchdog_is_fed_twice_as_often_as_it_asks() {
-        if is_child() {
-            assert_eq!(watchdog_interval(), Some(Duration::from_secs(10)));
-            return;
-        }
-        in_a_child(
-            "the_watchdog_is_fed_twice_as_often_as_it_asks",
-            &[("WATCHDOG_USEC", "20000000")],
-        );
-    }
-
-    #[test]
-    fn a_watchdog_of_nought_or_for_another_process_is_none() {
-        if is_child() {
-            assert_eq!(watchdog_interval(), None);
-            return;
-        }
-        let name = "a_watchdog_of_nought_or_for_another_process_is_none";
-        in_a_child(name, &[("WATCHDOG_USEC", "0")]);
-        in_a_child(
-            name,
-            &[("WATCHDOG_USEC", "20000000"), ("WATCHDOG_PID", "1")],
         );
     }
 }

@@ -7,6 +7,7 @@ use seamline_ecs::Pipeline;
 use toml::Value;
 
 use crate::config::Config;
+use crate::memory::limit;
 use crate::outputs::OutputFile;
 
 /// A configuration, its pipeline, and the hash of all that results depend on.
@@ -18,6 +19,8 @@ pub struct Setup {
     /// BLAKE3, in hexadecimal, of the settings in force and the files to be written. The order of keys and
     /// the number of threads have no part in it.
     pub settings_hash: String,
+    /// What the program and all meshes in work may take together ([`crate::memory::limit()`]).
+    pub memory_limit_bytes: u64,
     /// Are faces split, so that a mesh takes more memory ([`crate::memory::estimate`])?
     pub enriched: bool,
 }
@@ -40,6 +43,7 @@ impl Setup {
             && given("curvature", "carrier").and_then(Value::as_str) == Some("vertices");
         Self {
             enriched,
+            memory_limit_bytes: limit(config.limits.memory_limit_bytes),
             config,
             pipeline,
             settings_hash: blake3::hash(said.as_bytes()).to_hex().to_string(),

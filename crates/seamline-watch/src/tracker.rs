@@ -60,6 +60,8 @@ enum Phase {
 struct Watched {
     stamp: Stamp,
     still_since: Instant,
+    /// Since when it has not come to rest, in whatever state it was.
+    restless_since: Instant,
     phase: Phase,
 }
 
@@ -111,16 +113,15 @@ impl StabilityTracker {
     }
 
     fn see(&mut self, now: Instant, FileFact { path, stamp }: &FileFact) {
-        if self
-            .files
-            .get(path)
-            .is_some_and(|known| known.stamp == *stamp)
-        {
+        let known = self.files.get(path);
+        if known.is_some_and(|known| known.stamp == *stamp) {
             return;
         }
+        let restless = known.filter(|known| known.phase == Phase::Settling);
         let fresh = Watched {
             stamp: *stamp,
             still_since: now,
+            restless_since: restless.map_or(now, |known| known.restless_since),
             phase: Phase::Settling,
         };
         self.files.insert(path.clone(), fresh);
@@ -177,6 +178,7 @@ impl StabilityTracker {
     pub fn take_back(&mut self, now: Instant, path: &Path, stamp: Stamp) {
         if let Some(file) = self.files.get_mut(path).filter(|file| file.stamp == stamp) {
             file.still_since = now;
+            file.restless_since = now;
             file.phase = Phase::Settling;
             self.unsettled.insert(path.to_owned());
         }
@@ -190,6 +192,18 @@ impl StabilityTracker {
             file.phase = Phase::EndsEarly;
             self.unsettled.insert(path.to_owned());
         }
+    }
+
+    /// Waits no longer for the files that have not come to rest for `max_wait`, and gives their paths.
+    pub fn give_up(&mut self, now: Instant) -> Vec<PathBuf> {
+        let (files, max_wait) = (&self.files, self.max_wait);
+        let is_restless = |path: &PathBuf| {
+            files.get(path).is_some_and(|file| {
+                file.phase == Phase::Settling
+                    && now.saturating_duration_since(file.restless_since) >= max_wait
+            })
+        };
+        self.unsettled.extract_if(.., is_restless).collect()
     }
 
     /// Gives a file again once it has held still anew, whatever became of it before.

@@ -20,7 +20,13 @@ pub fn run(command: &ConfigCommand) -> Result<Outcome> {
             let pipeline = pipeline_of_file(&file)?;
             let config = Config::from_file(&file)?;
             for watched in &config.watch {
-                print(&format_args!("watches {}", shown(&watched.root)))?;
+                let root = &watched.root;
+                let absent = if root.is_dir() {
+                    ""
+                } else {
+                    ", which is not there yet"
+                };
+                print(&format_args!("watches {}{absent}", shown(root)))?;
             }
             print(&format_args!("writes to {}", shown(&config.output)))?;
             print(pipeline.settings_in_force())?;

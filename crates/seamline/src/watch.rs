@@ -34,7 +34,7 @@ pub fn run(args: &WatchArgs) -> Result<Outcome> {
     };
     let ran = seamline_watch::run(setup, Some(reload), options, orders()?);
     let summary = match ran {
-        Err(error @ WatchError::Locked(_)) => {
+        Err(error @ (WatchError::Locked(_) | WatchError::NotThere(_))) => {
             return Err(WrongUse(format!("{error}; {}", error.hint())).into());
         }
         ran => ran.map_err(|error| anyhow::anyhow!("{error}; {}", error.hint()))?,
@@ -77,19 +77,46 @@ fn orders() -> Result<Receiver<Order>> {
 }
 
 fn log_to_standard_error(said: SaidArgs, log: &LogTable) {
-    let level = match (said, log.level) {
-        (SaidArgs { quiet: true, .. }, _) | (_, LogLevel::Warn) => LevelFilter::WARN,
-        (SaidArgs { verbose: true, .. }, _) | (_, LogLevel::Debug) => LevelFilter::DEBUG,
-        (_, LogLevel::Error) => LevelFilter::ERROR,
-        (_, LogLevel::Info) => LevelFilter::INFO,
-    };
     let say = tracing_subscriber::fmt()
-        .with_max_level(level)
+        .with_max_level(level(said, log.level))
         .with_target(false)
         .log_internal_errors(false)
         .with_writer(io::stderr);
     match log.format {
         LogFormat::Text => say.with_ansi(io::stderr().is_terminal()).init(),
         LogFormat::Json => say.json().flatten_event(true).init(),
+    }
+}
+
+/// What is typed beats what the configuration says.
+fn level(said: SaidArgs, configured: LogLevel) -> LevelFilter {
+    match (said, configured) {
+        (SaidArgs { quiet: true, .. }, _) => LevelFilter::WARN,
+        (SaidArgs { verbose: true, .. }, _) => LevelFilter::DEBUG,
+        (_, LogLevel::Error) => LevelFilter::ERROR,
+        (_, LogLevel::Warn) => LevelFilter::WARN,
+        (_, LogLevel::Info) => LevelFilter::INFO,
+        (_, LogLevel::Debug) => LevelFilter::DEBUG,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_typed_beats_the_level_of_the_configuration() {
+        let [none, quiet, verbose] = [(false, false), (true, false), (false, true)]
+            .map(|(quiet, verbose)| SaidArgs { quiet, verbose });
+        for (configured, alone) in [
+            (LogLevel::Error, LevelFilter::ERROR),
+            (LogLevel::Warn, LevelFilter::WARN),
+            (LogLevel::Info, LevelFilter::INFO),
+            (LogLevel::Debug, LevelFilter::DEBUG),
+        ] {
+            assert_eq!(level(none, configured), alone);
+            assert_eq!(level(quiet, configured), LevelFilter::WARN);
+            assert_eq!(level(verbose, configured), LevelFilter::DEBUG);
+        }
     }
 }

@@ -35,9 +35,10 @@ impl Results {
         read_json(&self.folder(name).join("report.json"))
     }
 
-    /// Why a file is in quarantine, if it is.
+    /// Why a file is in quarantine, if it is: the reason is there before the file is.
     pub fn reason(&self, name: &str) -> Option<Value> {
-        read_json(&self.quarantine.join(format!("{name}.error.json")))
+        let reason = read_json(&self.quarantine.join(format!("{name}.error.json")))?;
+        self.quarantine.join(name).exists().then_some(reason)
     }
 
     /// The bytes of one result, the report without what differs from run to run.

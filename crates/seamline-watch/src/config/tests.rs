@@ -135,11 +135,41 @@ fn a_value_out_of_range_is_refused_on_its_line() {
 }
 
 #[test]
-fn a_watched_folder_that_does_not_exist_is_refused() {
+fn a_watched_folder_that_is_not_there_is_waited_for_and_a_file_in_its_place_is_refused() {
+    let home = Home::new();
+    let text = "[[watch]]\nroot = \"later\"\n";
+    let base = home.0.path().canonicalize().unwrap();
+    assert_eq!(home.load(text).unwrap().watch[0].root, base.join("later"));
+    fs::write(base.join("later"), "").unwrap();
     assert_eq!(
-        Home::new().refusal("[[watch]]\nroot = \"inbxo\"\n"),
-        "demo.toml:2: watch.root: inbxo does not exist; create the folder, or name one that exists"
+        home.refusal(text),
+        "demo.toml:2: watch.root: later is not a folder; name a folder"
     );
+}
+
+#[test]
+fn a_path_belongs_to_the_innermost_folder_that_looks_there() {
+    let home = Home::new();
+    let text =
+        "[[watch]]\nroot = \"inbox\"\nrecursive = false\n[[watch]]\nroot = \"inbox/deep/er\"\n";
+    let config = home.load(text).unwrap();
+    let base = home.0.path().canonicalize().unwrap().join("inbox");
+    let belongs = |path: &str| {
+        let watched = config.watched_with(&base.join(path));
+        watched.map(|watched| watched.root.clone())
+    };
+    let inner = base.join("deep/er");
+    for (path, root) in [
+        ("part.stl", Some(&base)),
+        ("", Some(&base)),
+        ("deep/part.stl", None),
+        ("deep/er", Some(&inner)),
+        ("deep/er/part.stl", Some(&inner)),
+        ("deep/er/and/deeper.stl", Some(&inner)),
+        ("../part.stl", None),
+    ] {
+        assert_eq!(belongs(path).as_ref(), root, "{path}");
+    }
 }
 
 #[test]

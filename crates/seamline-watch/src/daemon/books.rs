@@ -5,7 +5,7 @@ mod enter;
 mod obey;
 mod tell;
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::Arc;
 use std::thread::sleep;
 use std::time::{Duration, Instant};
@@ -18,7 +18,6 @@ use super::crew::Crew;
 use super::job::{Job, Waiting};
 use super::lookout::Lookout;
 use super::{Order, Reload, RunOptions, Summary, WatchError};
-use crate::config::{Config, Watched};
 use crate::events::Events;
 use crate::health::{Health, Trouble};
 use crate::ledger::{Ledger, LedgerError};
@@ -26,6 +25,7 @@ use crate::lock::InstanceLock;
 use crate::metrics::Metrics;
 use crate::setup::Setup;
 use crate::{service, shown};
+use tell::Asked;
 
 /// Everything is looked after at least this often.
 const BEAT_EVERY: Duration = Duration::from_secs(1);
@@ -67,6 +67,7 @@ struct Open {
     to_settle: Vec<(Instant, PathBuf)>,
     /// Asked for while the ledger could not be written.
     reload_asked: bool,
+    asked: Asked,
 }
 
 impl Books {
@@ -82,6 +83,7 @@ impl Books {
             first_look_done: false,
             to_settle: Vec::new(),
             reload_asked: false,
+            asked: Asked::default(),
         };
         let kept = open.keep();
         // On an error too: nothing new is begun, and threads that still live are let go.
@@ -110,6 +112,7 @@ impl Open {
             if self.is_at_end()? {
                 return Ok(());
             }
+            let wait = self.wait();
             select! {
                 recv(self.with.crew.outcomes()) -> outcome => {
                     self.enter(outcome.map_err(|_| WatchError::CrewLost)?)?;
@@ -120,13 +123,13 @@ impl Open {
                     Err(RecvError) => hints = never(),
                 },
                 recv(self.with.orders) -> order => self.obey(order.ok()),
-                default(self.wait()) => {}
+                default(wait) => {}
             }
         }
     }
 
     /// How long nothing is to be done, unless somebody has something to say.
-    fn wait(&self) -> Duration {
+    fn wait(&mut self) -> Duration {
         let now = Instant::now();
         let mut wait = BEAT_EVERY;
         if self.stop_by.is_none() {
@@ -209,6 +212,10 @@ impl Open {
         for _ in 0..look.scans {
             self.with.metrics.scanned();
         }
+        for path in look.restless {
+            warn!("{}: is still being written to, and is left", shown(&path));
+            self.summary.failed += 1;
+        }
         self.take_in(look.ready)?;
         let due = |last: Instant| last.elapsed() >= RECONCILE_EVERY;
         if look.scans > 0 && self.reconciled_at.is_none_or(due) {
@@ -216,6 +223,7 @@ impl Open {
         }
         if !self.first_look_done {
             self.first_look_done = true;
+            self.tell_of_folders();
             self.with.health.clear(&Trouble::Starting);
             service::ready();
         }
@@ -246,7 +254,7 @@ impl Open {
     /// The job on a file; nothing if its folder is watched no longer.
     fn job(&self, file: Waiting, attempts: u32) -> Option<Job> {
         let setup = self.with.setup.clone();
-        let watched = watched_with(&setup.config, &file.path)?;
+        let watched = setup.config.watched_with(&file.path)?;
         Some(Job {
             after: watched.after,
             span: span_of(&file),
@@ -294,13 +302,6 @@ impl Open {
             }
         }
     }
-}
-
-fn watched_with<'a>(config: &'a Config, path: &Path) -> Option<&'a Watched> {
-    config
-        .watch
-        .iter()
-        .find(|watched| path.starts_with(&watched.root))
 }
 
 /// Of the highest level, so that it is told along with whatever is said.

@@ -11,18 +11,19 @@ mod writer;
 
 use std::collections::HashMap;
 use std::io;
+use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::thread::{Builder, JoinHandle};
 use std::time::{Duration, Instant};
 
 use crossbeam_channel::{Receiver, Sender, bounded, unbounded};
 use seamline_ecs::Progress;
 
-use super::job::{Cut, Failure, Job, Loaded, Outcome, Remedy, Settle};
+use super::job::{Cut, Failure, Job, Loaded, Outcome, Settle};
 use crate::health::Health;
-use crate::ledger::{Fault, JobId, LedgerError, Reader};
-use crate::memory::{Gate, limit, share_of_meshes};
+use crate::ledger::{JobId, LedgerError, Reader};
+use crate::memory::{Gate, share_of_meshes};
 use crate::metrics::Metrics;
 use crate::setup::Setup;
 
@@ -31,8 +32,10 @@ pub(super) struct Shared {
     pub gate: Gate,
     pub health: Arc<Health>,
     pub metrics: Arc<Metrics>,
+    /// Where results go by the configuration in force, which may not be that of a job.
+    output: Mutex<PathBuf>,
     /// Who works on which bytes, by their hash and that of the settings.
-    pub claims: Mutex<HashMap<(String, String), JobId>>,
+    claims: Mutex<HashMap<(String, String), JobId>>,
     /// The meshes that are being cut, the hashes of their files, and since when.
     cutting: Mutex<HashMap<JobId, Cutting>>,
     /// Cutters that were given up and have not come back.
@@ -54,6 +57,19 @@ impl Shared {
         self.stopping.load(Ordering::Relaxed)
     }
 
+    /// Do results go to this folder by the configuration in force?
+    fn writes_to(&self, output: &Path) -> bool {
+        *locked(&self.output) == output
+    }
+
+    fn claims(&self) -> MutexGuard<'_, HashMap<(String, String), JobId>> {
+        locked(&self.claims)
+    }
+
+    fn cutting(&self) -> MutexGuard<'_, HashMap<JobId, Cutting>> {
+        locked(&self.cutting)
+    }
+
     /// Runs one stage and notes how long it took by the clock.
     fn timed<T>(&self, stage: &str, work: impl FnOnce() -> T) -> T {
         let started = Instant::now();
@@ -61,6 +77,11 @@ impl Shared {
         self.metrics.stage_took(stage, started.elapsed());
         done
     }
+}
+
+/// What is in there is whole after every step, so that a panic elsewhere does not spoil it.
+fn locked<T>(shared: &Mutex<T>) -> MutexGuard<'_, T> {
+    shared.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
 /// Why the threads cannot be started.
@@ -99,9 +120,10 @@ impl Crew {
     ) -> Result<Self, StartError> {
         let config = &setup.config;
         let shared = Arc::new(Shared {
-            gate: Gate::new(share_of_meshes(limit(config.limits.memory_limit_bytes))),
+            gate: Gate::new(share_of_meshes(setup.memory_limit_bytes)),
             health,
             metrics,
+            output: Mutex::new(config.output.clone()),
             claims: Mutex::default(),
             cutting: Mutex::default(),
             abandoned: AtomicUsize::new(0),
@@ -190,11 +212,7 @@ impl Crew {
 
     /// The bytes this job worked on are free again.
     pub(super) fn release(&self, id: JobId) {
-        let mut claims = self
-            .shared
-            .claims
-            .lock()
-            .unwrap_or_else(PoisonError::into_inner);
+        let mut claims = self.shared.claims();
         claims.retain(|_, holder| *holder != id);
     }
 
@@ -202,11 +220,7 @@ impl Crew {
     /// their place. Gives the jobs that have thereby failed.
     pub(super) fn give_up_overdue(&mut self, now: Instant) -> io::Result<Vec<(Job, Failure)>> {
         let overdue: Vec<_> = {
-            let mut cutting = self
-                .shared
-                .cutting
-                .lock()
-                .unwrap_or_else(PoisonError::into_inner);
+            let mut cutting = self.shared.cutting();
             let is_overdue = |cut: &Cutting| {
                 let limit = cut.job.setup.config.limits.job_timeout_s;
                 limit > 0 && now.saturating_duration_since(cut.since) >= Duration::from_secs(limit)
@@ -229,19 +243,12 @@ impl Crew {
             self.shared.abandoned.fetch_add(1, Ordering::Relaxed);
             self.start_cutter()?;
             let limit = job.setup.config.limits.job_timeout_s;
-            let fault = Fault {
-                stage: progress.stage().name().to_owned(),
-                message: format!("was not cut within {limit} s"),
-                hint: "raise `limits.job_timeout_s`, or try another classifier or rectifier"
-                    .to_owned(),
-                of_content: false,
-            };
-            let failure = Failure {
-                fault,
-                content: Some(content),
-                remedy: Remedy::None,
-            };
-            failed.push((job, failure));
+            let failure = Failure::new(
+                progress.stage().name(),
+                format!("was not cut within {limit} s"),
+                "raise `limits.job_timeout_s`, or try another classifier or rectifier",
+            );
+            failed.push((job, failure.of(content)));
         }
         Ok(failed)
     }
@@ -249,6 +256,13 @@ impl Crew {
     /// How many cutters were given up and have not come back.
     pub(super) fn abandoned(&self) -> usize {
         self.shared.abandoned.load(Ordering::Relaxed)
+    }
+
+    /// From now on another configuration is in force.
+    pub(super) fn change_to(&self, setup: &Setup) {
+        let meshes = share_of_meshes(setup.memory_limit_bytes);
+        self.shared.gate.set_limit(meshes);
+        locked(&self.shared.output).clone_from(&setup.config.output);
     }
 
     /// The admission to memory.

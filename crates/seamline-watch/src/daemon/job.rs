@@ -76,6 +76,30 @@ pub(super) struct Failure {
     pub remedy: Remedy,
 }
 
+impl Failure {
+    /// At `stage`, for good, and no fault of the bytes, of which nothing is known.
+    pub(super) fn new(stage: &str, message: impl Into<String>, hint: impl Into<String>) -> Self {
+        Self {
+            fault: Fault {
+                stage: stage.to_owned(),
+                message: message.into(),
+                hint: hint.into(),
+                of_content: false,
+            },
+            content: None,
+            remedy: Remedy::None,
+        }
+    }
+
+    /// The same, of bytes with this hash.
+    pub(super) fn of(self, content: impl Into<Option<String>>) -> Self {
+        Self {
+            content: content.into(),
+            ..self
+        }
+    }
+}
+
 /// A job on its way to the cutters.
 pub(super) struct Loaded {
     pub job: Job,
@@ -127,6 +151,8 @@ pub(super) enum Outcome {
     Gone { job: Job },
     /// Not begun, because the daemon stops.
     Dropped { job: Job },
+    /// Its results have no room where they were to go, and by the configuration of now they go elsewhere.
+    Outdated { job: Job },
     /// The source was dealt with; where it was put, an empty path if it was deleted, nothing if it stays.
     Settled {
         job: Job,
@@ -145,6 +171,7 @@ impl Outcome {
             | Self::Changed { job }
             | Self::Gone { job }
             | Self::Dropped { job }
+            | Self::Outdated { job }
             | Self::Settled { job, .. } => job,
         }
     }

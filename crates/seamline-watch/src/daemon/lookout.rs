@@ -5,7 +5,7 @@ mod root;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
-use crate::config::Config;
+use crate::config::{Config, innermost};
 use crate::events::{Events, Hint};
 use crate::tracker::{FileFact, ReadyFile, Stamp};
 use root::Root;
@@ -31,6 +31,8 @@ pub(super) struct Look {
     pub scans: usize,
     /// How often the system has lost count of the changes.
     pub overflows: usize,
+    /// With `once`: files that have not held still for as long as is waited for any, and are given up.
+    pub restless: Vec<PathBuf>,
 }
 
 /// The watched folders, a tracker for each, and the time of the next look.
@@ -40,6 +42,8 @@ pub(super) struct Lookout {
     glance_every: Duration,
     rescan_every: Duration,
     looked_at: Option<Instant>,
+    /// When the next look is due; nothing if that has to be found out anew.
+    due: Option<Instant>,
     hinted: bool,
     once: bool,
 }
@@ -51,6 +55,7 @@ impl Lookout {
             glance_every: Duration::ZERO,
             rescan_every: Duration::ZERO,
             looked_at: None,
+            due: None,
             hinted: false,
             once,
         };
@@ -76,18 +81,30 @@ impl Lookout {
         self.glance_every = glance_every.clamp(Duration::from_millis(10), Duration::from_secs(1));
         self.rescan_every = config.rescan_every;
         self.looked_at = None;
+        self.due = None;
     }
 
     /// Something changed: look soon.
     pub(super) fn hint(&mut self) {
-        self.hinted = true;
+        if !self.hinted {
+            self.hinted = true;
+            self.due = None;
+        }
     }
 
     /// How long until the next look is due.
-    pub(super) fn wait(&self, now: Instant) -> Duration {
+    pub(super) fn wait(&mut self, now: Instant) -> Duration {
         let Some(looked_at) = self.looked_at else {
             return Duration::ZERO;
         };
+        let due = match self.due {
+            Some(due) => due,
+            None => *self.due.insert(self.next_look(looked_at)),
+        };
+        due.saturating_duration_since(now)
+    }
+
+    fn next_look(&self, looked_at: Instant) -> Instant {
         let soon = self.hinted || self.roots.iter().any(|root| root.tracker.is_settling());
         let mut due = looked_at
             + if soon {
@@ -104,7 +121,6 @@ impl Lookout {
         }
         // However much is due, there is a pause between two looks.
         due.max(looked_at + self.glance_every.min(PRESENCE_EVERY))
-            .saturating_duration_since(now)
     }
 
     /// Looks wherever there is reason to.
@@ -136,8 +152,12 @@ impl Lookout {
             } else {
                 look.ready.extend(root.glance(may_list));
             }
+            if self.once {
+                look.restless.extend(root.tracker.give_up(Instant::now()));
+            }
         }
         self.looked_at = Some(Instant::now());
+        self.due = None;
         look
     }
 
@@ -148,10 +168,8 @@ impl Lookout {
     }
 
     fn root_of(&mut self, path: &Path) -> Option<&mut Root> {
-        self.roots
-            .iter_mut()
-            .filter(|root| path.starts_with(&root.watched().root))
-            .max_by_key(|root| root.watched().root.as_os_str().len())
+        self.due = None;
+        innermost(self.roots.iter_mut(), path, |root| root.watched())
     }
 
     /// Every file that would be taken if it held still.

@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 use rusqlite::{Connection, OpenFlags, OptionalExtension, params};
 
 use super::row::{self, COLUMNS};
-use super::{JobId, JobState, LedgerError, Row, open_existing};
+use super::{JobId, JobState, LedgerError, Row, now_ms, open_existing};
 use crate::quarantine::reason_beside;
 use crate::relocate::move_aside;
 use crate::tracker::Stamp;
@@ -138,12 +138,13 @@ fn enter(connection: &Connection, row: &Row, path: &Path, stamp: Stamp) -> rusql
     transaction.execute(
         "UPDATE jobs SET state = 'pending', path = ?2, relative = ?3, stamp = ?4, attempts = 0, crashes = 0, suspect = 0, \
          source = NULL, result = NULL, same_as = NULL, stage = NULL, message = NULL, hint = NULL, \
-         of_content = 0, content = NULL, ended_at = NULL WHERE id = ?1",
+         of_content = 0, content = NULL, ended_at = NULL, queued_at = ?5 WHERE id = ?1",
         params![
             row.id.0,
             path.as_os_str().as_bytes(),
             relative(row, path).as_os_str().as_bytes(),
-            stamp.word()
+            stamp.word(),
+            now_ms()
         ],
     )?;
     transaction.commit()

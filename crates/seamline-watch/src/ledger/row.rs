@@ -23,7 +23,7 @@ pub enum JobState {
     Done,
     /// It failed for good.
     Quarantined,
-    /// Its file went away before it was read.
+    /// Its file went away or was replaced before it was done.
     Gone,
 }
 
@@ -133,6 +133,6 @@ fn path_of(bytes: Vec<u8>) -> PathBuf {
     OsString::from_vec(bytes).into()
 }
 
-fn at(milliseconds: i64) -> SystemTime {
+pub(super) fn at(milliseconds: i64) -> SystemTime {
     UNIX_EPOCH + Duration::from_millis(milliseconds.max(0) as u64)
 }

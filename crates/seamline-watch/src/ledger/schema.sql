@@ -38,7 +38,7 @@ CREATE TABLE jobs (
 
 CREATE INDEX jobs_by_path ON jobs (path, id);
 CREATE INDEX jobs_by_content ON jobs (content, settings);
-CREATE INDEX jobs_by_state ON jobs (state);
+CREATE INDEX jobs_by_state ON jobs (state, queued_at);
 CREATE INDEX jobs_by_result ON jobs (result) WHERE result IS NOT NULL;
 CREATE INDEX jobs_by_holder ON jobs (same_as) WHERE same_as IS NOT NULL;
 

@@ -3,10 +3,10 @@
 use std::os::unix::ffi::OsStrExt;
 use std::path::Path;
 
-use rusqlite::{OptionalExtension, Transaction, params};
+use rusqlite::{Connection, OptionalExtension, Transaction, params};
 
 use super::row::{self, COLUMNS};
-use super::{JobId, JobState, Ledger, LedgerError, Row, now_ms};
+use super::{JobId, JobState, Ledger, LedgerError, Reader, Row, now_ms};
 
 /// A file that has held still.
 #[derive(Clone, Copy, Debug)]
@@ -65,49 +65,83 @@ impl Ledger {
     }
 }
 
+impl Reader {
+    /// Has the job on the file in this state ended, done or not, under these settings?
+    pub fn has_ended(&self, path: &Path, stamp: &str, settings: &str) -> Result<bool, LedgerError> {
+        let last = last_job(&self.connection, path, stamp, settings)?;
+        Ok(matches!(last, Last::Done(_) | Last::Quarantined(_)))
+    }
+}
+
 fn one(
     transaction: &Transaction<'_>,
     arrival: &Arrival<'_>,
     settings: &str,
 ) -> Result<TakenIn, LedgerError> {
-    let path = arrival.path.as_os_str().as_bytes();
-    let last = format!("SELECT {COLUMNS} FROM jobs WHERE path = ?1 ORDER BY id DESC LIMIT 1");
-    let last = transaction
-        .prepare_cached(&last)?
-        .query_row([path], row::read)
-        .optional()?;
-    let Some(last) = last else {
-        return new(transaction, arrival);
-    };
-    let same_file = last.stamp == arrival.stamp;
-    let same_work = same_file && last.settings.as_deref() == Some(settings);
-    Ok(match last.state {
-        JobState::Pending => {
-            if !same_file {
+    let Arrival { path, stamp, .. } = *arrival;
+    Ok(match last_job(transaction, path, stamp, settings)? {
+        Last::OfOtherWork => return new(transaction, arrival),
+        Last::Pending(row) => {
+            if row.stamp != stamp {
                 transaction.execute(
                     "UPDATE jobs SET stamp = ?2, content = NULL, attempts = 0, crashes = 0, suspect = 0 WHERE id = ?1",
-                    params![last.id.0, arrival.stamp],
+                    params![row.id.0, stamp],
                 )?;
             }
             TakenIn::Queue {
-                id: last.id,
-                suspicion: suspicion(transaction, last.id)?,
+                id: row.id,
+                suspicion: suspicion(transaction, row.id)?,
             }
         }
-        JobState::Running if same_file => TakenIn::Running,
-        JobState::Done if same_work && has_results(transaction, &last)? => TakenIn::Done(last.id),
-        JobState::Quarantined if same_work => TakenIn::Quarantined(Box::new(last)),
-        _ => return new(transaction, arrival),
+        Last::Running => TakenIn::Running,
+        Last::Done(id) => TakenIn::Done(id),
+        Last::Quarantined(row) => TakenIn::Quarantined(Box::new(row)),
+    })
+}
+
+/// The last job of a path, as seen by who has a file there.
+enum Last {
+    /// None, or one on other content or under other settings, or whose results are gone.
+    OfOtherWork,
+    /// It waits; what it waits with is the latest content.
+    Pending(Row),
+    Running,
+    Done(JobId),
+    Quarantined(Row),
+}
+
+fn last_job(
+    connection: &Connection,
+    path: &Path,
+    stamp: &str,
+    settings: &str,
+) -> Result<Last, LedgerError> {
+    let last = format!("SELECT {COLUMNS} FROM jobs WHERE path = ?1 ORDER BY id DESC LIMIT 1");
+    let last = connection
+        .prepare_cached(&last)?
+        .query_row([path.as_os_str().as_bytes()], row::read)
+        .optional()?;
+    let Some(last) = last else {
+        return Ok(Last::OfOtherWork);
+    };
+    let same_file = last.stamp == stamp;
+    let same_work = same_file && last.settings.as_deref() == Some(settings);
+    Ok(match last.state {
+        JobState::Pending => Last::Pending(last),
+        JobState::Running if same_file => Last::Running,
+        JobState::Done if same_work && has_results(connection, &last)? => Last::Done(last.id),
+        JobState::Quarantined if same_work => Last::Quarantined(last),
+        _ => Last::OfOtherWork,
     })
 }
 
 /// Does the job, or the one that has its results, have them still?
-fn has_results(transaction: &Transaction<'_>, row: &Row) -> Result<bool, LedgerError> {
+fn has_results(connection: &Connection, row: &Row) -> Result<bool, LedgerError> {
     let Some(holder) = row.same_as else {
         return Ok(row.result.is_some());
     };
     let mut held =
-        transaction.prepare_cached("SELECT 1 FROM jobs WHERE id = ?1 AND result IS NOT NULL")?;
+        connection.prepare_cached("SELECT 1 FROM jobs WHERE id = ?1 AND result IS NOT NULL")?;
     Ok(held.exists([holder.0])?)
 }
 

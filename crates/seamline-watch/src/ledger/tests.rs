@@ -320,3 +320,89 @@ fn a_folder_without_a_ledger_and_a_newer_ledger_are_refused_in_words() {
     let broken = Ledger::open(folder.path()).err().unwrap();
     assert!(!broken.may_pass() && broken.hint().contains("move it away"));
 }
+
+#[test]
+fn a_job_that_was_followed_by_other_content_does_not_wait_again() {
+    let mut home = Home::new();
+    for back in [
+        |home: &mut Home, id| home.ledger.put_back(id),
+        |home: &mut Home, id| home.ledger.postpone(id, &fault(false), true),
+    ] {
+        let old = home.queue("a", "1");
+        home.ledger.begin(old, SETTINGS).unwrap();
+        let new = home.queue("a", "2");
+        assert_ne!(old, new);
+        assert!(!back(&mut home, old).unwrap());
+        assert_eq!(home.row(old).state, JobState::Gone);
+        home.ledger.begin(new, SETTINGS).unwrap();
+        assert!(back(&mut home, new).unwrap());
+        assert_eq!(home.row(new).state, JobState::Pending);
+        home.ledger.gone(new).unwrap();
+    }
+    let old = home.queue("a", "3");
+    home.ledger.begin(old, SETTINGS).unwrap();
+    let new = home.queue("a", "4");
+    let mut home = home.reopen();
+    home.ledger.recover().unwrap();
+    assert_eq!(home.row(old).state, JobState::Gone);
+    assert_eq!(home.row(new).state, JobState::Pending);
+}
+
+#[test]
+fn of_what_waits_only_what_is_watched_counts_as_oldest() {
+    let mut home = Home::new();
+    let oldest = |home: &Home, root: &str| {
+        let watched = |path: &Path| path.starts_with(root);
+        home.ledger.oldest_pending(watched).unwrap()
+    };
+    assert_eq!(oldest(&home, "/"), None);
+    let first = home.queue("/in/a", "1");
+    std::thread::sleep(Duration::from_millis(5));
+    let second = home.queue("/other/a", "1");
+    let [first, second] = [first, second].map(|id| Some(home.row(id).queued_at));
+    assert!(first < second);
+    assert_eq!(oldest(&home, "/"), first);
+    assert_eq!(oldest(&home, "/other"), second);
+    assert_eq!(oldest(&home, "/nowhere"), None);
+}
+
+#[test]
+fn the_version_changes_with_every_change_and_with_nothing_else() {
+    let mut home = Home::new();
+    let new = home.ledger.version().unwrap();
+    home.ledger.counts().unwrap();
+    assert_eq!(home.ledger.version().unwrap(), new);
+    let id = home.queue("a", "1");
+    let queued = home.ledger.version().unwrap();
+    assert_ne!(queued, new);
+    let other = Connection::open(home.folder.path().join(FILE_NAME)).unwrap();
+    other
+        .execute("UPDATE jobs SET state = 'gone' WHERE id = ?1", [id.0])
+        .unwrap();
+    assert_ne!(home.ledger.version().unwrap(), queued);
+}
+
+#[test]
+fn a_job_has_ended_for_the_state_of_its_file_and_its_settings_only() {
+    let mut home = Home::new();
+    let ended = |home: &Home, path: &str, stamp: &str, settings: &str| {
+        home.reader()
+            .has_ended(Path::new(path), stamp, settings)
+            .unwrap()
+    };
+    home.done("a", "1", "x");
+    let bad = home.queue("bad", "1");
+    home.ledger.begin(bad, SETTINGS).unwrap();
+    assert!(!ended(&home, "bad", "1", SETTINGS));
+    home.ledger.quarantine(bad, None, &fault(true)).unwrap();
+    home.queue("waits", "1");
+    assert!(ended(&home, "a", "1", SETTINGS) && ended(&home, "bad", "1", SETTINGS));
+    for (path, stamp, settings) in [
+        ("a", "2", SETTINGS),
+        ("a", "1", "s2"),
+        ("waits", "1", SETTINGS),
+        ("unknown", "1", SETTINGS),
+    ] {
+        assert!(!ended(&home, path, stamp, settings), "{path}");
+    }
+}

@@ -170,11 +170,6 @@ impl Gate {
 }
 
 impl Pass {
-    /// The size of the share, in bytes.
-    pub fn bytes(&self) -> u64 {
-        self.bytes
-    }
-
     /// Makes the share smaller at once, or larger as soon as there is room: before those who wait to get in,
     /// and in the order in which those who grow got in. `false`: `stop` said so, the share is as it was.
     ///

@@ -17,19 +17,22 @@ pub fn limit(given_bytes: u64) -> u64 {
     let limits = files
         .iter()
         .filter_map(|file| fs::read_to_string(file).ok());
-    three_quarters(machine, limits.filter_map(|text| bytes_in(&text)))
+    three_quarters(least(machine, limits.filter_map(|text| bytes_in(&text))))
 }
 
 /// What of a limit is given to meshes: three quarters. The rest is for what no estimate sees, the program itself and
 /// what the allocator keeps: with two meshes in work at a time that was 24 % on top of the estimates for 250,000
 /// triangles, and 15 % for a million.
 pub fn share_of_meshes(limit_bytes: u64) -> u64 {
-    limit_bytes / 4 * 3
+    three_quarters(limit_bytes)
 }
 
-fn three_quarters(machine: u64, limits: impl Iterator<Item = u64>) -> u64 {
-    let most = limits.fold(machine, u64::min);
-    most / 4 * 3
+fn three_quarters(bytes: u64) -> u64 {
+    bytes / 4 * 3
+}
+
+fn least(machine: u64, limits: impl Iterator<Item = u64>) -> u64 {
+    limits.fold(machine, u64::min)
 }
 
 /// Where the limits of the groups of a process may stand, its own and those above it, by the text of
@@ -122,9 +125,10 @@ mod tests {
 
     #[test]
     fn the_least_of_all_counts() {
-        assert_eq!(three_quarters(16 << 30, [].into_iter()), 12 << 30);
+        assert_eq!(least(16 << 30, [].into_iter()), 16 << 30);
         let limits = [8 << 30, 4 << 30, 9_223_372_036_854_771_712];
-        assert_eq!(three_quarters(16 << 30, limits.into_iter()), 3 << 30);
+        assert_eq!(least(16 << 30, limits.into_iter()), 4 << 30);
+        assert_eq!(three_quarters(16 << 30), 12 << 30);
     }
 
     #[test]

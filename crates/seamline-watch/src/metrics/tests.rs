@@ -34,8 +34,8 @@ fn every_series_is_there_before_anything_happened() {
         let label = Some(("outcome", kind.name()));
         assert_eq!(number(&metrics, "seamline_jobs_total", label), 0.0);
     }
-    for state in JOB_STATES {
-        let label = Some(("state", state));
+    for state in JobState::ALL {
+        let label = Some(("state", state.word()));
         assert_eq!(number(&metrics, "seamline_ledger_jobs", label), 0.0);
     }
     for stage in stage_names() {
@@ -100,9 +100,9 @@ fn each_event_is_counted_where_it_belongs() {
 #[test]
 fn levels_rise_and_fall() {
     let metrics = Metrics::new("1.2.3");
-    let states: Vec<(&str, u64)> = JOB_STATES.into_iter().zip(3..).collect();
+    let states: Vec<_> = JobState::ALL.into_iter().zip(3..).collect();
     metrics.set_jobs(&states);
-    metrics.set_jobs(&[("running", 1), ("nonsense", 9)]);
+    metrics.set_jobs(&[(JobState::Running, 1)]);
     metrics.set_queue(7);
     metrics.set_queue(5);
     metrics.set_oldest_pending(Some(Duration::from_millis(1500)));

@@ -17,6 +17,31 @@ fn fact((name, size, modified_s, inode): Seen) -> FileFact {
     }
 }
 
+#[test]
+fn a_file_that_never_holds_still_is_given_up_after_the_longest_wait_and_no_other_is() {
+    let start = Instant::now();
+    let mut tracker = tracker();
+    let longest = 60;
+    let mut ready = Vec::new();
+    for at in 0..=longest {
+        let now = start + Duration::from_secs(at);
+        let mut seen = vec![fact(("growing", 1 + at, 0, 1))];
+        if at + 1 >= longest {
+            seen.push(fact(("late", 1, 0, 2)));
+        }
+        ready.extend(tracker.step(now, Facts::All(&seen)));
+        let given_up = tracker.give_up(now);
+        assert_eq!(given_up.len(), usize::from(at == longest), "{at}");
+    }
+    assert!(ready.is_empty() && tracker.is_settling());
+    let later = start + Duration::from_secs(longest + 2);
+    let still = fact(("growing", 1 + longest, 0, 1));
+    let late = fact(("late", 1, 0, 2));
+    let given = tracker.step(later, Facts::All(&[still, late]));
+    assert_eq!(given.len(), 1);
+    assert_eq!(given[0].path, Path::new("late"));
+}
+
 /// Runs listings at given seconds past a tracker that wants two seconds, and tells what became ready when.
 fn ready_at(listings: &[(u64, &[Seen])]) -> Vec<(u64, String)> {
     let start = Instant::now();

@@ -36,7 +36,7 @@ pub enum Watcher {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct WatchTable {
-    /// The folder. It must exist.
+    /// The folder. While it is not there it is waited for.
     pub root: PathBuf,
     /// Look into folders below it too?
     pub recursive: bool,
@@ -48,7 +48,8 @@ pub struct WatchTable {
     /// A file is taken when its size and time of change have held still for this long.
     pub stable_for_ms: u64,
     /// A file that ends early by its own word (a binary STL shorter than its header promises) is taken for
-    /// one that is still being written, until it has held still for this long; then for a broken one.
+    /// one that is still being written, until it has held still for this long; then for a broken one. With
+    /// `--once` a file that changes for this long is left as it is.
     pub max_wait_ms: u64,
     /// How changes are noticed.
     pub watcher: Watcher,

@@ -7,9 +7,9 @@ use tracing::info;
 use super::Open;
 use crate::config::After;
 use crate::daemon::WatchError;
-use crate::daemon::job::{Failure, Job, Remedy, Waiting};
+use crate::daemon::job::{Failure, Job, Waiting};
 use crate::daemon::lookout::Ready;
-use crate::ledger::{Arrival, Fault, Row, TakenIn};
+use crate::ledger::{Arrival, Row, TakenIn};
 use crate::shown;
 
 impl Open {
@@ -97,14 +97,7 @@ impl Open {
 }
 
 fn failure_of(row: Row) -> Failure {
-    Failure {
-        fault: Fault {
-            stage: row.stage.unwrap_or_default(),
-            message: row.message.unwrap_or_default(),
-            hint: row.hint.unwrap_or_default(),
-            of_content: false,
-        },
-        content: row.content,
-        remedy: Remedy::None,
-    }
+    let stage = row.stage.unwrap_or_default();
+    let [message, hint] = [row.message, row.hint].map(Option::unwrap_or_default);
+    Failure::new(&stage, message, hint).of(row.content)
 }

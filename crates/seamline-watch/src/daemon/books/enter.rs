@@ -45,10 +45,7 @@ impl Open {
                 path,
             } => {
                 if !self.record(|ledger| ledger.same_content(id, &content, holder))? {
-                    self.record(|ledger| ledger.put_back(id))?;
-                    self.end(&job);
-                    self.backlog.add(job.file);
-                    return Ok(());
+                    return self.begin_anew(job);
                 }
                 self.summary.same += 1;
                 self.with.metrics.job_ended(OutcomeKind::SameContent);
@@ -60,9 +57,11 @@ impl Open {
                 self.done(job)
             }
             Outcome::Behind { job, other } => {
-                self.record(|ledger| ledger.put_back(id))?;
+                let waits = self.record(|ledger| ledger.put_back(id))?;
                 self.backlog.ended(&job.file);
-                self.backlog.add_behind(job.file, other);
+                if waits {
+                    self.backlog.add_behind(job.file, other);
+                }
                 Ok(())
             }
             Outcome::Failed { job, failure } => self.failed(job, failure),
@@ -90,6 +89,7 @@ impl Open {
                 self.end(&job);
                 Ok(())
             }
+            Outcome::Outdated { job } => self.begin_anew(job),
             Outcome::Settled { job, place } => {
                 match place {
                     Ok(Some(place)) => {
@@ -111,6 +111,16 @@ impl Open {
                 Ok(())
             }
         }
+    }
+
+    /// What the job was begun with holds no longer.
+    fn begin_anew(&mut self, job: Job) -> Result<(), WatchError> {
+        let waits = self.record(|ledger| ledger.put_back(job.file.id))?;
+        self.end(&job);
+        if waits {
+            self.backlog.add(job.file);
+        }
+        Ok(())
     }
 
     pub(super) fn timed_out(&mut self, job: Job, failure: Failure) -> Result<(), WatchError> {
@@ -139,8 +149,12 @@ impl Open {
     fn again(&mut self, job: Job, failure: &Failure) -> Result<(), WatchError> {
         let (id, fault) = (job.file.id, &failure.fault);
         let counts = failure.remedy == Remedy::Again;
-        self.record(|ledger| ledger.postpone(id, fault, counts))?;
+        let waits = self.record(|ledger| ledger.postpone(id, fault, counts))?;
         self.with.metrics.job_ended(OutcomeKind::Retried);
+        if !waits {
+            self.end(&job);
+            return Ok(());
+        }
         let retry = &job.setup.config.retry;
         let failures = job.file.failures + 1;
         let [first, most] = [retry.first_ms, retry.most_ms].map(Duration::from_millis);

@@ -6,11 +6,11 @@ use std::time::Instant;
 use crossbeam_channel::never;
 use tracing::{error, info, warn};
 
-use super::{Open, watched_with};
+use super::Open;
+use super::tell::Asked;
 use crate::config::Config;
 use crate::daemon::{Order, WatchError, make_folders};
 use crate::health::Trouble;
-use crate::memory::{limit, share_of_meshes};
 use crate::service;
 use crate::setup::Setup;
 
@@ -87,12 +87,12 @@ impl Open {
             .clear(&Trouble::NotWritable(output.clone()));
         self.with.lookout.retarget(config);
         self.with.events.retarget(&config.watch);
-        let limit = share_of_meshes(limit(config.limits.memory_limit_bytes));
-        self.with.crew.gate().set_limit(limit);
+        self.with.crew.change_to(&setup);
         self.backlog
-            .retain(|job| watched_with(config, &job.path).is_some());
+            .retain(|job| config.watched_with(&job.path).is_some());
         info!("the configuration was read anew and holds from the next job on");
         self.with.setup = Arc::new(setup);
+        self.asked = Asked::default();
     }
 }
 

@@ -1,8 +1,8 @@
 //! The threads that cut: each has a worker of its own, and threads of its own for that worker.
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::Arc;
 use std::sync::atomic::Ordering;
-use std::sync::{Arc, PoisonError};
 use std::time::{Duration, Instant};
 
 use crossbeam_channel::{Receiver, RecvTimeoutError, Sender};
@@ -11,8 +11,7 @@ use seamline_ecs::{Pipeline, Progress, Segmentation, Worker};
 
 use super::guard::guarded;
 use super::{Cutting, Shared};
-use crate::daemon::job::{Cut, Failure, Job, Loaded, Outcome, Remedy};
-use crate::ledger::Fault;
+use crate::daemon::job::{Cut, Failure, Job, Loaded, Outcome};
 use crate::load::LoadedMesh;
 use crate::memory::{Pass, bytes_kept};
 
@@ -97,10 +96,7 @@ pub(super) fn cut_all(
                 cut.send(done).is_ok()
             }
             Err(failure) => {
-                let failure = Failure {
-                    content: Some(mesh.hash),
-                    ..failure
-                };
+                let failure = failure.of(mesh.hash);
                 outcome.send(Outcome::Failed { job, failure }).is_ok()
             }
         };
@@ -159,15 +155,10 @@ fn cut_one(
     match result {
         Ok(cut) => {
             *kept = at_work;
-            cut.map_err(|error| Failure {
-                fault: Fault {
-                    stage: error.stage.name().to_owned(),
-                    message: error.message,
-                    hint: error.hint,
-                    of_content: true,
-                },
-                content: None,
-                remedy: Remedy::None,
+            cut.map_err(|error| {
+                let mut failure = Failure::new(error.stage.name(), error.message, error.hint);
+                failure.fault.of_content = true;
+                failure
             })
         }
         Err(mut panicked) => {
@@ -180,24 +171,16 @@ fn cut_one(
 }
 
 fn begin(shared: &Shared, job: &Job, content: &str, progress: &Progress) {
-    let mut cutting = shared
-        .cutting
-        .lock()
-        .unwrap_or_else(PoisonError::into_inner);
     let under_way = Cutting {
         job: job.clone(),
         content: content.to_owned(),
         since: Instant::now(),
         progress: progress.clone(),
     };
-    cutting.insert(job.file.id, under_way);
+    shared.cutting().insert(job.file.id, under_way);
 }
 
 /// False if the job was given up meanwhile.
 fn end(shared: &Shared, job: &Job) -> bool {
-    let mut cutting = shared
-        .cutting
-        .lock()
-        .unwrap_or_else(PoisonError::into_inner);
-    cutting.remove(&job.file.id).is_some()
+    shared.cutting().remove(&job.file.id).is_some()
 }

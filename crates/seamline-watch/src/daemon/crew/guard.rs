@@ -2,8 +2,7 @@
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
-use crate::daemon::job::{Failure, Remedy};
-use crate::ledger::Fault;
+use crate::daemon::job::Failure;
 
 /// Runs work that may panic; the panic is one failed job.
 pub(super) fn guarded<T>(stage: &str, work: impl FnOnce() -> T) -> Result<T, Failure> {
@@ -11,17 +10,10 @@ pub(super) fn guarded<T>(stage: &str, work: impl FnOnce() -> T) -> Result<T, Fai
         let said = panic.downcast_ref::<&str>().copied();
         let said = said.or_else(|| panic.downcast_ref::<String>().map(String::as_str));
         let said = said.unwrap_or("no message").split_whitespace();
-        let fault = Fault {
-            stage: stage.to_owned(),
-            message: format!("panicked: {}", said.collect::<Vec<_>>().join(" ")),
-            hint: "this is a mistake in the program or a plugin: please report it with the file"
-                .to_owned(),
-            of_content: false,
-        };
-        Failure {
-            fault,
-            content: None,
-            remedy: Remedy::None,
-        }
+        Failure::new(
+            stage,
+            format!("panicked: {}", said.collect::<Vec<_>>().join(" ")),
+            "this is a mistake in the program or a plugin: please report it with the file",
+        )
     })
 }

@@ -2,7 +2,6 @@
 
 use std::io;
 use std::path::{Path, PathBuf};
-use std::sync::PoisonError;
 use std::time::Instant;
 
 use crossbeam_channel::{Receiver, Sender};
@@ -13,7 +12,7 @@ use super::guard::guarded;
 use super::writer::result_of;
 use crate::config::After;
 use crate::daemon::job::{Failure, Job, Loaded, Outcome, Remedy};
-use crate::ledger::{Fault, JobId, Known, Reader};
+use crate::ledger::{JobId, Known, Reader};
 use crate::load::{FileBytes, LoadError, LoadedMesh, mesh_of, read_file, read_head, weld_share};
 use crate::memory::{Pass, START_BYTES, TooLarge, bytes_for_mesh, estimate};
 use crate::retry::may_pass;
@@ -77,10 +76,12 @@ fn read(shared: &Shared, ledger: &Reader, job: Job) -> Result<Box<Loaded>, Box<O
             });
         }
         Ok(Some(Known::Bad(fault))) => {
+            let content = Some(bytes.hash);
+            let remedy = Remedy::None;
             let failure = Failure {
                 fault,
-                content: Some(bytes.hash),
-                remedy: Remedy::None,
+                content,
+                remedy,
             };
             return instead(Outcome::Failed { job, failure });
         }
@@ -115,7 +116,7 @@ fn admit(shared: &Shared, job: &Job) -> Result<Pass, Box<dyn FnOnce(Job) -> Outc
     let needs = estimate(job.file.stamp.size, &start, job.setup.enriched);
     let gate = &shared.gate;
     let refused = |error: TooLarge| -> Box<dyn FnOnce(Job) -> Outcome> {
-        let failure = too_large(&error, None);
+        let failure = too_large(&error);
         Box::new(|job| Outcome::Failed { job, failure })
     };
     let limit = gate.limit();
@@ -138,42 +139,38 @@ fn parse(
 ) -> Result<LoadedMesh, Failure> {
     let content = bytes.hash.clone();
     let share = weld_share(job.setup.pipeline.settings_in_force());
-    let mesh =
-        guarded("read", || mesh_of(bytes, &job.file.path, share)).map_err(|failure| Failure {
-            content: Some(content.clone()),
-            ..failure
-        })?;
+    let mesh = guarded("read", || mesh_of(bytes, &job.file.path, share))
+        .map_err(|failure| failure.of(content.clone()))?;
     let mesh = mesh.map_err(|error| {
-        let waits = error.is_truncated() && !job.file.overdue;
-        Failure {
-            fault: fault_of(&error),
-            content: Some(content.clone()),
-            remedy: if waits { Remedy::Again } else { Remedy::None },
+        let mut failure = failure_of(&error);
+        if error.is_truncated() && !job.file.overdue {
+            failure.remedy = Remedy::Again;
         }
+        failure
     })?;
     let triangles = mesh.mesh.triangles.len() as u64;
     let most = job.setup.config.limits.max_triangles;
     if triangles > most {
-        return Err(of_limit(
+        let failure = Failure::new(
+            "read",
             format!("has {triangles} triangles, more than the {most} that are allowed"),
             "raise `limits.max_triangles`, or export a coarser mesh",
-            Some(content),
-        ));
+        );
+        return Err(failure.of(content));
     }
     let vertices = mesh.mesh.positions().len() as u64;
     let needs = bytes_for_mesh(triangles, vertices, job.setup.enriched);
     match pass.resize(needs, &|| shared.is_stopping()) {
         // Stopping: the mesh is dropped before it is begun.
         Ok(_) => Ok(mesh),
-        Err(error) => Err(too_large(&error, Some(content))),
+        Err(error) => Err(too_large(&error).of(content)),
     }
 }
 
 /// Takes the right to work on these bytes, or tells who has it.
 fn claim(shared: &Shared, job: &Job, content: &str) -> Option<JobId> {
-    let mut claims = shared.claims.lock().unwrap_or_else(PoisonError::into_inner);
     let work = (content.to_owned(), job.setup.settings_hash.clone());
-    let holder = *claims.entry(work).or_insert(job.file.id);
+    let holder = *shared.claims().entry(work).or_insert(job.file.id);
     (holder != job.file.id).then_some(holder)
 }
 
@@ -181,84 +178,59 @@ fn refused(job: Job, error: LoadError) -> Outcome {
     match &error {
         LoadError::Changed => Outcome::Changed { job },
         LoadError::Io(cause) if cause.kind() == io::ErrorKind::NotFound => Outcome::Gone { job },
-        LoadError::Io(cause) => {
-            let remedy = if may_pass(cause) {
-                Remedy::Again
-            } else {
-                Remedy::None
-            };
-            let failure = Failure {
-                fault: fault_of(&error),
-                content: None,
-                remedy,
-            };
-            Outcome::Failed { job, failure }
-        }
-        LoadError::NotAFile | LoadError::Mesh { .. } => {
-            let failure = Failure {
-                fault: fault_of(&error),
-                content: error.hash().map(str::to_owned),
-                remedy: Remedy::None,
-            };
+        LoadError::Io(_) | LoadError::NotAFile | LoadError::Mesh { .. } => {
+            let failure = failure_of(&error);
             Outcome::Failed { job, failure }
         }
     }
 }
 
-fn fault_of(error: &LoadError) -> Fault {
-    Fault {
-        stage: "read".to_owned(),
-        message: error.to_string(),
-        hint: error.hint().to_owned(),
-        of_content: error.is_of_content() && !error.is_truncated(),
+fn failure_of(error: &LoadError) -> Failure {
+    let mut failure = Failure::new("read", error.to_string(), error.hint());
+    failure.fault.of_content = error.is_of_content() && !error.is_truncated();
+    if let LoadError::Io(cause) = error
+        && may_pass(cause)
+    {
+        failure.remedy = Remedy::Again;
     }
+    failure.of(error.hash().map(str::to_owned))
 }
 
 fn too_long(job: &Job) -> Option<Failure> {
     let (size, most) = (job.file.stamp.size, job.setup.config.limits.max_file_bytes);
     (size > most).then(|| {
-        of_limit(
+        Failure::new(
+            "read",
             format!("has {size} bytes, more than the {most} that are allowed"),
             "raise `limits.max_file_bytes`, or export a coarser mesh",
-            None,
         )
     })
 }
 
-fn too_large(error: &TooLarge, content: Option<String>) -> Failure {
-    of_limit(error.to_string(), error.hint(), content)
-}
-
-fn of_limit(message: String, hint: &str, content: Option<String>) -> Failure {
-    Failure {
-        fault: Fault {
-            stage: "read".to_owned(),
-            message,
-            hint: hint.to_owned(),
-            of_content: false,
-        },
-        content,
-        remedy: Remedy::None,
-    }
+fn too_large(error: &TooLarge) -> Failure {
+    Failure::new("read", error.to_string(), error.hint())
 }
 
 /// Two watched folders may hold files of the same relative path, whose results would have the same place:
 /// the folder named first in the configuration has it, or the one whose results are there already.
 fn taken_by_another_root(ledger: &Reader, job: &Job) -> Option<Failure> {
     let other = waiting_in_another_root(job).or_else(|| done_in_another_root(ledger, job))?;
-    Some(of_limit(
+    Some(Failure::new(
+        "read",
         format!("its results would replace those of {}", shown(&other)),
         "give one of the two files another name",
-        None,
     ))
 }
 
 fn waiting_in_another_root(job: &Job) -> Option<PathBuf> {
     let relative = &job.file.relative;
     let below = relative.components().count() > 1;
-    let roots = job.setup.config.watch.iter();
-    let other = roots
-        .take_while(|other| !job.file.path.starts_with(&other.root))
+    let config = &job.setup.config;
+    let own = config.watched_with(&job.file.path)?;
+    let other = config
+        .watch
+        .iter()
+        .take_while(|other| other.root != own.root)
         .find(|other| {
             (other.recursive || !below)
                 && other.include.take(relative)
@@ -269,11 +241,11 @@ fn waiting_in_another_root(job: &Job) -> Option<PathBuf> {
 }
 
 fn done_in_another_root(ledger: &Reader, job: &Job) -> Option<PathBuf> {
-    let roots = &job.setup.config.watch;
-    if roots.len() < 2 {
+    let config = &job.setup.config;
+    if config.watch.len() < 2 {
         return None;
     }
     let owner = ledger.owner_of(&result_of(job)).ok().flatten()?;
-    let is_other = owner != job.file.path && roots.iter().any(|root| owner.starts_with(&root.root));
+    let is_other = owner != job.file.path && config.watched_with(&owner).is_some();
     is_other.then_some(owner)
 }

@@ -1,4 +1,5 @@
-//! The thread that writes results. While the disk is full it waits, and with it all who come before.
+//! The thread that writes results. While the disk is full it waits, and with it all who come before, until there is
+//! room or the configuration names another folder.
 
 use std::ffi::OsString;
 use std::io;
@@ -14,7 +15,6 @@ use super::guard::guarded;
 use crate::VERSION;
 use crate::daemon::job::{Cut, Failure, Job, Outcome, Remedy};
 use crate::health::Trouble;
-use crate::ledger::Fault;
 use crate::outputs::{JobFacts, OutputError, result_folder, write_results};
 
 /// How often a full disk is tried again.
@@ -40,35 +40,24 @@ fn write(shared: &Shared, cut: Cut) -> Outcome {
         segmentation,
         pass: _pass,
     } = cut;
-    let failed = |failure: Failure| Failure {
-        content: Some(mesh.hash.clone()),
-        ..failure
-    };
-    match written {
-        Ok(Ok(())) => Outcome::Written {
-            result: result_of(&job),
-            patches: segmentation.patches.len(),
-            content: mesh.hash,
-            job,
+    let failure = match written {
+        Ok(Ok(())) => {
+            return Outcome::Written {
+                result: result_of(&job),
+                patches: segmentation.patches.len(),
+                content: mesh.hash,
+                job,
+            };
+        }
+        Ok(Err(error)) if error.is_full_disk() => return Outcome::Outdated { job },
+        Ok(Err(error)) => Failure {
+            remedy: Remedy::AgainForEver,
+            ..Failure::new("write", error.to_string(), error.hint())
         },
-        Ok(Err(error)) => {
-            let failure = failed(Failure {
-                fault: Fault {
-                    stage: "write".to_owned(),
-                    message: error.to_string(),
-                    hint: error.hint().to_owned(),
-                    of_content: false,
-                },
-                content: None,
-                remedy: Remedy::AgainForEver,
-            });
-            Outcome::Failed { job, failure }
-        }
-        Err(panicked) => {
-            let failure = failed(panicked);
-            Outcome::Failed { job, failure }
-        }
-    }
+        Err(panicked) => panicked,
+    };
+    let failure = failure.of(mesh.hash);
+    Outcome::Failed { job, failure }
 }
 
 /// A folder that was there at the start and is not any more may be a share that was unmounted: made anew, it would
@@ -96,13 +85,14 @@ fn place(job: &Job) -> (PathBuf, OsString) {
     (parent, relative.file_name().unwrap_or_default().to_owned())
 }
 
+/// The disk is full for as long as it takes, and an error only once results go elsewhere by the configuration.
 fn write_when_there_is_room(shared: &Shared, cut: &Cut) -> Result<(), OutputError> {
     let output = &cut.job.setup.config.output;
     let trouble = || Trouble::DiskFull(output.clone());
     let mut paused = false;
     loop {
         match write_once(cut) {
-            Err(error) if error.is_full_disk() => {
+            Err(error) if error.is_full_disk() && shared.writes_to(output) => {
                 if !paused {
                     paused = true;
                     warn!("{error}; paused until there is room");
@@ -113,7 +103,10 @@ fn write_when_there_is_room(shared: &Shared, cut: &Cut) -> Result<(), OutputErro
             }
             other => {
                 if paused {
-                    info!("there is room again");
+                    match &other {
+                        Err(error) if error.is_full_disk() => info!("results go elsewhere now"),
+                        _ => info!("there is room again"),
+                    }
                     shared.health.clear(&trouble());
                     shared.metrics.set_paused(false);
                 }

@@ -24,8 +24,6 @@ pub(super) struct Root {
     pub next_listing: Option<Instant>,
     /// Where something has changed.
     noted: BTreeSet<PathBuf>,
-    /// Folders to be looked at once more: what came into a new one before it was heard of made no event.
-    once_more: BTreeSet<PathBuf>,
     /// Why it is away.
     away: Option<String>,
     was_mounted: bool,
@@ -43,7 +41,6 @@ impl Root {
             watched,
             next_listing: None,
             noted: BTreeSet::new(),
-            once_more: BTreeSet::new(),
             away: None,
             identity: None,
             unreadable: HashSet::new(),
@@ -164,10 +161,6 @@ impl Root {
         if !news {
             noted.clear();
         }
-        let again = std::mem::take(&mut self.once_more);
-        self.once_more
-            .extend(noted.iter().filter(|path| path.is_dir()).cloned());
-        noted.extend(again);
         noted.extend(self.tracker.unsettled().cloned());
         let mut listing = Listing::default();
         for path in &noted {

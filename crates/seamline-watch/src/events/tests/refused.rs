@@ -62,7 +62,7 @@ fn shares_are_polled_unless_told_otherwise() {
     let said = said_while(|| {
         let watched = watched(&home, Watcher::Auto);
         let mut events = Events::listen(std::slice::from_ref(&watched));
-        assert!(events.is_polled(&home) && !events.waits_for(&home));
+        assert!(events.is_polled(&home) && !waits_for(&events, &home));
         events.hear_again(&watched);
     });
     assert_eq!(said.lines().count(), 1, "{said}");
@@ -85,7 +85,7 @@ fn without_instances_of_inotify_the_root_is_polled_and_one_line_says_so() {
         let said = said_while(|| {
             let watched = watched(&home, watcher);
             let mut events = Events::listen(std::slice::from_ref(&watched));
-            assert!(events.is_polled(&home) && !events.waits_for(&home));
+            assert!(events.is_polled(&home) && !waits_for(&events, &home));
             events.hear_again(&watched);
         });
         assert_eq!(said.lines().count(), 1, "{said}");

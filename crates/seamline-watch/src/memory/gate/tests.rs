@@ -32,7 +32,7 @@ fn shares_are_given_out_and_come_back() {
     drop(second);
     assert!(first.resize(100, NEVER).unwrap());
     assert!(first.resize(10, NEVER).unwrap());
-    assert_eq!((gate.reserved(), first.bytes()), (10, 10));
+    assert_eq!((gate.reserved(), first.bytes), (10, 10));
     drop(first);
     assert_eq!(gate.reserved(), 0);
 }
@@ -51,7 +51,7 @@ fn what_never_fits_is_refused_and_changes_nothing() {
     );
     let mut pass = entered(&gate, 5);
     assert_eq!(pass.resize(needs, NEVER), Err(error));
-    assert_eq!((pass.bytes(), gate.reserved()), (5, 5));
+    assert_eq!((pass.bytes, gate.reserved()), (5, 5));
     assert!(gate.try_enter(u64::MAX).is_err());
 }
 
@@ -98,7 +98,7 @@ fn who_is_told_to_stop_leaves_the_way_to_the_next() {
         assert!(gives_up.join().unwrap().unwrap().is_none());
         let next = next.join().unwrap();
         assert!(!first.resize(60, &|| true).unwrap());
-        assert_eq!((first.bytes(), next.bytes()), (50, 50));
+        assert_eq!((first.bytes, next.bytes), (50, 50));
     });
     assert!(gate.shared.lock().growing.is_empty());
 }

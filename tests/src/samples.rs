@@ -93,7 +93,7 @@ fn ply(path: &'static str, shape: &Shape, size: f64) -> Sample {
     let one_patch = vec![0; part.polygons.face_count()];
     Sample {
         path,
-        bytes: filled(|out| write_ply(out, &part.polygons, nothing, &one_patch)),
+        bytes: filled(|out| write_ply(out, &part.polygons, nothing, &one_patch, None)),
         patches: shape.patches.clone(),
     }
 }

@@ -44,7 +44,7 @@ fn files() -> Vec<(&'static str, Vec<u8>)> {
     write_stl_binary(&mut files[0].1, &mesh.positions, &triangles).unwrap();
     write_stl_ascii(&mut files[1].1, "sample", &mesh.positions, &triangles).unwrap();
     write_obj(&mut files[2].1, &mesh).unwrap();
-    write_ply(&mut files[3].1, &mesh, quantities, &[0; 7]).unwrap();
+    write_ply(&mut files[3].1, &mesh, quantities, &[0; 7], None).unwrap();
     let mut text = "ply\r\nformat ascii 1.0\r\nelement face 7\r\nproperty list int uint vertex_index\r\n\
                     property list char short extra\r\nelement vertex 8\r\nproperty double x\r\nproperty float y\r\n\
                     property uchar z\r\nelement other 1\r\nproperty list uchar double w\r\nend_header\r\n"

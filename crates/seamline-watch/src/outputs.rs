@@ -225,7 +225,18 @@ fn write_one(
                 d_min: &of.d_min,
                 d_max: &of.d_max,
             };
-            write_ply(out, &mesh.polygons, quantities, &segmentation.face_patches)
+            let types = segmentation.patches.iter();
+            let types: Option<Vec<u8>> = types
+                .map(|patch| patch.surface.map(|surface| surface.shape.number()))
+                .collect();
+            let patches = &segmentation.face_patches;
+            write_ply(
+                out,
+                &mesh.polygons,
+                quantities,
+                patches,
+                types.as_deref(),
+            )
         }
         OutputFile::Boundaries => {
             let curves = segmentation.boundaries.iter();

@@ -68,6 +68,7 @@ pub fn in_one_patch(mesh: &Mesh) -> Segmentation {
         patches: vec![PatchReport {
             id: 0,
             summary,
+            surface: None,
             neighbours: Vec::new(),
         }],
         boundaries: vec![Boundary {

@@ -26,9 +26,9 @@ pub struct VertexQuantities<'a> {
 
 /// Writes a binary little-endian PLY: the welded faces as the file had them, each with `int patch` and a
 /// colour; each vertex with its coordinates (`float` if that is exact for all of them, else `double`) and
-/// its `quantities`.
+/// its `quantities`. With `surface_types` faces have `uchar surface_type` as well.
 ///
-/// `patches` has one number a face.
+/// `patches` has one number a face, `surface_types` one a patch.
 ///
 /// # Errors
 ///
@@ -38,6 +38,7 @@ pub fn write_ply(
     mesh: &PolygonMesh,
     quantities: VertexQuantities<'_>,
     patches: &[u32],
+    surface_types: Option<&[u8]>,
 ) -> io::Result<()> {
     let vertices = mesh.positions.len();
     let VertexQuantities {
@@ -50,6 +51,11 @@ pub fn write_ply(
     if lengths != [vertices; 4] || patches.len() != mesh.face_count() {
         return Err(invalid("a column does not have one value a vertex or face"));
     }
+    if let Some(types) = surface_types
+        && patches.iter().any(|&patch| patch as usize >= types.len())
+    {
+        return Err(invalid("a patch has no surface type"));
+    }
     if vertices > i32::MAX as usize || patches.iter().any(|&patch| patch > i32::MAX as u32) {
         return Err(invalid("a number is too large for the `int` of a PLY"));
     }
@@ -57,7 +63,7 @@ pub fn write_ply(
     let mut header = Header::new();
     header.encoding = Encoding::BinaryLittleEndian;
     let vertex = vertex_element(mesh);
-    let face = face_element(mesh);
+    let face = face_element(mesh, surface_types.is_some());
     header.elements.add(vertex.clone());
     header.elements.add(face.clone());
 
@@ -81,6 +87,7 @@ pub fn write_ply(
             .extend(mesh.face(f).iter().map(|&vertex| vertex as i32));
         row.patch = patch as i32;
         row.colour = patch_colour(patch);
+        row.surface_type = surface_types.map_or(0, |types| types[patch as usize]);
         writer.write_little_endian_element(&mut bytes, &row, &face)?;
         hand_on(out, &mut bytes)?;
     }
@@ -121,7 +128,7 @@ fn vertex_element(mesh: &PolygonMesh) -> ElementDef {
     element
 }
 
-fn face_element(mesh: &PolygonMesh) -> ElementDef {
+fn face_element(mesh: &PolygonMesh, with_types: bool) -> ElementDef {
     let most = mesh
         .starts
         .windows(2)
@@ -142,6 +149,10 @@ fn face_element(mesh: &PolygonMesh) -> ElementDef {
     );
     add(&mut element, "patch", PropertyType::Scalar(ScalarType::Int));
     for name in ["red", "green", "blue"] {
+        add(&mut element, name, PropertyType::Scalar(ScalarType::UChar));
+    }
+    if with_types {
+        let name = "surface_type";
         add(&mut element, name, PropertyType::Scalar(ScalarType::UChar));
     }
     element
@@ -188,6 +199,7 @@ struct FaceRow {
     corners: Vec<i32>,
     patch: i32,
     colour: [u8; 3],
+    surface_type: u8,
 }
 
 impl PropertyAccess for FaceRow {
@@ -196,6 +208,7 @@ impl PropertyAccess for FaceRow {
             corners: Vec::new(),
             patch: 0,
             colour: [0; 3],
+            surface_type: 0,
         }
     }
 
@@ -212,6 +225,7 @@ impl PropertyAccess for FaceRow {
             "red" => Some(self.colour[0]),
             "green" => Some(self.colour[1]),
             "blue" => Some(self.colour[2]),
+            "surface_type" => Some(self.surface_type),
             _ => None,
         }
     }
@@ -237,6 +251,7 @@ mod tests {
                 d_max: &d,
             },
             patches,
+            None,
         )?;
         Ok(out)
     }

@@ -5,6 +5,7 @@ use glam::DVec3;
 use crate::Fitted;
 use crate::hypothesis::{Hypothesis, View};
 use crate::parts::{Form, Parts};
+use crate::pieces::NONE;
 use crate::refine::refine_patiently;
 use crate::regions::Regions;
 use crate::surface::{Kind, Surface};
@@ -12,29 +13,24 @@ use crate::surface::{Kind, Surface};
 /// Most vertices the last fit looks at.
 const MOST_POINTS: usize = 2000;
 
-/// The surface of each patch, by the numbers in `of_face`.
+/// The surface of each patch, of which the part is given.
 pub(crate) fn surfaces(
     view: View,
     regions: &Regions,
     parts: &Parts,
-    of_face: &[u32],
+    part_of: &[u32],
 ) -> Vec<Option<Fitted>> {
-    let count = of_face.iter().max().map_or(0, |&last| last as usize + 1);
-    let mut surfaces = vec![None; count.max(parts.forms.len())];
-    let mut planes = vec![Vec::new(); parts.forms.len()];
+    let mut plane_of = vec![NONE; parts.forms.len()];
     for (piece, &part) in parts.of_piece.iter().enumerate() {
-        if parts.forms[part as usize] == Form::Plane {
-            planes[part as usize].push(piece as u32);
-        }
+        plane_of[part as usize] = piece as u32;
     }
-    for (part, form) in parts.forms.iter().enumerate() {
-        surfaces[part] = match form {
-            Form::Surface(region) => Some(fitted(view, &regions.all[*region as usize])),
-            Form::Plane => planes[part].first().map(|&piece| plane(view, piece)),
-            Form::Free => None,
-        };
-    }
-    surfaces
+    let of_part = |part: u32| match parts.forms.get(part as usize) {
+        Some(Form::Surface(region)) => Some(fitted(view, &regions.all[*region as usize])),
+        Some(Form::Plane) => Some(plane(view, plane_of[part as usize])),
+        // Creases cut free forms, and number them beyond the parts.
+        Some(Form::Free) | None => None,
+    };
+    part_of.iter().map(|&part| of_part(part)).collect()
 }
 
 fn plane(view: View, piece: u32) -> Fitted {

@@ -23,7 +23,7 @@ mod surface;
 mod trust;
 
 use glam::DVec3;
-use seamline_mesh::Topology;
+use seamline_mesh::{Sets, Topology};
 
 pub use surface::{Kind, Surface};
 
@@ -31,7 +31,7 @@ use hypothesis::{Hypothesis, View};
 use pieces::{NONE, Pieces, Triangles};
 use regions::Regions;
 use search::Search;
-use select::{borders_speak_for, select};
+use select::{borders_speak_for, free_part, select};
 
 /// Distances, in diagonals of the bounding box, at which vertices still lie on a surface: that of an export
 /// in single precision, then those of kernels which store an approximation.
@@ -40,6 +40,9 @@ const LADDER: [f64; 3] = [1e-6, 1e-5, 5e-5];
 /// Root mean square distance, in diagonals, of vertices stored in single precision from the surface they were
 /// put on: 1e-8 to 2e-8 in exports about the origin, 1e-7 and more in surfaces that only come near.
 const PRECISION: f64 = 5e-8;
+
+/// Root mean square of what single precision takes from a coordinate, as a share of it.
+const ROUNDING: f64 = 0.29 * f32::EPSILON as f64;
 
 /// How flat a piece is, as a share of the tolerance.
 const FLATNESS: f64 = 0.3;
@@ -85,8 +88,8 @@ pub struct Found {
 /// precision is coarser far from the origin.
 pub fn find(positions: &[DVec3], topology: &Topology, farthest: f64) -> Found {
     let (centre, diagonal) = frame(positions, topology);
-    let precision = PRECISION.max(farthest / diagonal * f64::from(f32::EPSILON));
-    let ladder = LADDER.map(|tolerance| tolerance.max(20.0 * precision));
+    let precision = PRECISION.max(ROUNDING * farthest / diagonal);
+    let ladder = LADDER.map(|tolerance| tolerance.max(6.0 * precision));
     let scaled: Vec<DVec3> = positions.iter().map(|&x| (x - centre) / diagonal).collect();
     let triangles = Triangles::of(&scaled, &topology.triangles);
     let (pieces, mut regions) = climb(&scaled, topology, &triangles, ladder, precision);
@@ -108,7 +111,8 @@ pub fn find(positions: &[DVec3], topology: &Topology, farthest: f64) -> Found {
         .map(|&p| parts.of_piece[p as usize])
         .collect();
     creases::split(&scaled, topology, &triangles, &parts.forms, &mut of_face);
-    let surfaces = describe::surfaces(view, &regions, &parts, &of_face);
+    let (of_face, part_of) = connected(topology, &of_face);
+    let surfaces = describe::surfaces(view, &regions, &parts, &part_of);
     let exact = regions
         .alive()
         .filter(|&r| regions.all[r as usize].exact);
@@ -122,6 +126,24 @@ pub fn find(positions: &[DVec3], topology: &Topology, farthest: f64) -> Found {
             .collect(),
         exact_share: if whole > 0.0 { exact / whole } else { 0.0 },
     }
+}
+
+/// A number for each connected set of faces of one part, and the part of each number.
+fn connected(topology: &Topology, parts: &[u32]) -> (Vec<u32>, Vec<u32>) {
+    let mut sets = Sets::new(parts.len());
+    for edge in 0..topology.edge_faces.len() {
+        if let Some([a, b]) = topology.face_pair(edge)
+            && parts[a as usize] == parts[b as usize]
+        {
+            sets.unite(a, b);
+        }
+    }
+    let (of_face, count) = sets.numbered();
+    let mut part_of = vec![0; count];
+    for (&patch, &part) in of_face.iter().zip(parts) {
+        part_of[patch as usize] = part;
+    }
+    (of_face, part_of)
 }
 
 /// Centre and diagonal of the box of the used vertices.
@@ -229,14 +251,10 @@ fn step(view: View, topology: &Topology, regions: &mut Regions, rung: usize, tol
         }
     }
     for hypothesis in freed {
-        let left: Vec<u32> = hypothesis
-            .pieces
-            .iter()
-            .copied()
-            .filter(|&p| regions.owner[p as usize] == NONE)
-            .collect();
-        if 2 * left.len() > hypothesis.pieces.len() {
-            let back = view.weigh(hypothesis.surface, hypothesis.sign, left, tolerance);
+        let left = free_part(view, regions, &hypothesis, tolerance);
+        if let Some(back) = left
+            && 2 * back.pieces.len() > hypothesis.pieces.len()
+        {
             regions.accept(back);
         }
     }

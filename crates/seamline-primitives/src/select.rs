@@ -16,7 +16,7 @@ const TANGENT_SHARE: f64 = 0.7;
 const UNEXPLAINED_SHARE: f64 = 0.3;
 
 /// The connected pieces of a hypothesis that nobody owns, largest evidence first.
-fn free_part(
+pub(crate) fn free_part(
     view: View,
     regions: &Regions,
     hypothesis: &Hypothesis,

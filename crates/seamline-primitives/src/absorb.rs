@@ -5,10 +5,11 @@ use std::collections::{BTreeMap, HashSet};
 use crate::hypothesis::{Hypothesis, View};
 use crate::pieces::NONE;
 use crate::regions::Regions;
+use crate::surface::Kind;
 
 /// Least cosine between the normals of a lone triangle and of the surface it lies on: at the pole of a
 /// coarse sphere triangles meet at 60 degrees.
-const LONE_TRIANGLE_COS: f64 = 0.6;
+const LONE_TRIANGLE_COS: f64 = 0.2;
 const PIECE_COS: f64 = 0.85;
 
 /// Gives regions and unowned pieces that lie on the surface of a larger neighbour to it, over walls too.
@@ -39,8 +40,9 @@ fn absorb_regions(view: View, regions: &mut Regions, tolerance: f64) -> usize {
         let evidence = |r: u32| regions.all[r as usize].evidence;
         let takes = |large: u32| {
             let Hypothesis { surface, sign, .. } = &regions.all[large as usize];
-            let own = &regions.all[small as usize].pieces;
-            own.iter()
+            let own = &regions.all[small as usize];
+            let certain = own.surface.kind == Kind::Plane && own.exact;
+            (regions.all[large as usize].exact || !certain) && own.pieces.iter()
                 .all(|&p| view.fits(p, surface, *sign, tolerance))
         };
         let taker = beside

@@ -231,7 +231,7 @@ fn step(view: View, topology: &Topology, regions: &mut Regions, rung: usize, tol
     let found = Search::new(view, &open, tolerance).run();
     let least = |kind: Kind| match (rung, kind) {
         (0, _) => 1,
-        (1, Kind::Cylinder) => 16,
+        (1, Kind::Cylinder) => 8,
         (1, _) => 40,
         _ => 100,
     };

@@ -12,8 +12,9 @@ use crate::pieces::Triangles;
 
 /// A part of fewer faces is left whole.
 const FEWEST_FACES: usize = 20;
-/// Degrees of the median turn above which a part is left whole: its steps are as large as its creases.
-const MOST_NOISE_DEG: f64 = 2.0;
+/// Median turn, in degrees, above which the steps of the tessellation are taken for as large as creases: pieces
+/// must then be large.
+const COARSE_DEG: f64 = 2.0;
 /// A crease turns by this, and by so many times the median.
 const CREASE_DEG: f64 = 10.0;
 const CREASE_MEDIANS: f64 = 6.0;
@@ -28,8 +29,10 @@ const MOST_COST: f64 = 300.0;
 /// A share of the part's area, and a number of faces, below which a piece of it is no patch.
 const LEAST_AREA_SHARE: f64 = 0.02;
 const LEAST_FACES: usize = 6;
-/// Two pieces whose common border turns by less on average are one.
+const LEAST_FACES_IF_COARSE: usize = 20;
+/// Two pieces whose common border turns by less on average are one; and by less than so many medians.
 const BORDER_DEG: f64 = 3.0;
+const BORDER_MEDIANS: f64 = 2.0;
 
 /// Splits free forms along their creases. New parts get numbers after the present ones.
 pub(crate) fn split(
@@ -66,9 +69,6 @@ pub(crate) fn split(
         let mut sorted: Vec<f64> = turns.values().copied().collect();
         sorted.sort_unstable_by(f64::total_cmp);
         let median = sorted[sorted.len() / 2];
-        if median > MOST_NOISE_DEG {
-            continue;
-        }
         let part = Part {
             positions,
             topology,
@@ -76,6 +76,7 @@ pub(crate) fn split(
             edges: &edges,
             turns: &turns,
             threshold: CREASE_DEG.max(CREASE_MEDIANS * median),
+            median,
         };
         let found = part.pieces();
         for (face, piece) in found {
@@ -98,6 +99,8 @@ struct Part<'a> {
     turns: &'a HashMap<u32, f64>,
     /// Turn of a crease in degrees.
     threshold: f64,
+    /// Median turn in degrees.
+    median: f64,
 }
 
 impl Part<'_> {
@@ -284,6 +287,12 @@ impl Part<'_> {
     }
 
     fn merge(&self, faces: &[u32], sets: &mut Sets, row: impl Fn(u32) -> u32) {
+        let fewest = if self.median > COARSE_DEG {
+            LEAST_FACES_IF_COARSE
+        } else {
+            LEAST_FACES
+        };
+        let least_turn = BORDER_DEG.max(BORDER_MEDIANS * self.median);
         loop {
             let mut areas: BTreeMap<u32, (f64, usize)> = BTreeMap::new();
             for (i, &face) in faces.iter().enumerate() {
@@ -308,12 +317,12 @@ impl Part<'_> {
             }
             let small = |set: &u32| {
                 let (area, count) = areas[set];
-                area < LEAST_AREA_SHARE * whole || count < LEAST_FACES
+                area < LEAST_AREA_SHARE * whole || count < fewest
             };
             let weakest = borders
                 .into_iter()
                 .map(|(pair, (length, turn))| (pair, turn / length.max(f64::MIN_POSITIVE)))
-                .filter(|(pair, turn)| *turn < BORDER_DEG || pair.iter().any(small))
+                .filter(|(pair, turn)| *turn < least_turn || pair.iter().any(small))
                 .min_by(|a, b| a.1.total_cmp(&b.1));
             let Some(([a, b], _)) = weakest else {
                 return;

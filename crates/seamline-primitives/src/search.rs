@@ -18,6 +18,8 @@ const RING_COS: f64 = 0.9;
 const MOST_IN_RING: usize = 60;
 /// Most neighbourhoods of three pieces tried for one seed.
 const MOST_TRIPLES: usize = 12;
+/// Pieces of a strip.
+const STRIP: usize = 8;
 /// Most vertices a fit looks at; more do not make it better.
 const MOST_POINTS: usize = 400;
 /// A grown surface is fitted once more, to this share of the tolerance.
@@ -120,6 +122,12 @@ impl<'a> Search<'a> {
                     continue;
                 }
                 self.attempt(seed, kind, &triple, &mut best);
+            }
+        }
+        let strip = self.strip(seed);
+        for kind in [Kind::Cylinder, Kind::Cone] {
+            if !self.settled(&best, kind) {
+                self.attempt(seed, kind, &strip, &mut best);
             }
         }
         let stars = self.stars(seed);
@@ -306,6 +314,29 @@ impl<'a> Search<'a> {
         }
         triples.truncate(MOST_TRIPLES);
         triples
+    }
+
+    /// The seed and what goes on from it with the least turns: along a strip of triangles between two rims, of
+    /// which every star holds pieces beyond the rims.
+    fn strip(&self, seed: u32) -> Vec<u32> {
+        let pieces = self.view.pieces;
+        let turn = |a: u32, b: u32| {
+            let [a, b] = [a, b].map(|p| pieces.normals[p as usize]);
+            a.dot(b)
+        };
+        let mut strip = vec![seed];
+        while strip.len() < STRIP {
+            let beyond = strip.iter().flat_map(|&from| {
+                self.neighbours(from)
+                    .filter(|p| !strip.contains(p))
+                    .map(move |to| (turn(from, to), to))
+            });
+            let Some((_, next)) = beyond.max_by(|a, b| a.0.total_cmp(&b.0)) else {
+                break;
+            };
+            strip.push(next);
+        }
+        strip
     }
 
     /// The pieces round each vertex of the seed.

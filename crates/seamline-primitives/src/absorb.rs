@@ -15,7 +15,8 @@ const PIECE_COS: f64 = 0.85;
 /// Gives regions and unowned pieces that lie on the surface of a larger neighbour to it, over walls too.
 pub(crate) fn absorb(view: View, regions: &mut Regions, tolerance: f64) {
     for _ in 0..5 {
-        let joined = absorb_regions(view, regions, tolerance) + absorb_pieces(view, regions, tolerance);
+        let joined =
+            absorb_regions(view, regions, tolerance) + absorb_pieces(view, regions, tolerance);
         if joined == 0 {
             break;
         }
@@ -42,8 +43,11 @@ fn absorb_regions(view: View, regions: &mut Regions, tolerance: f64) -> usize {
             let Hypothesis { surface, sign, .. } = &regions.all[large as usize];
             let own = &regions.all[small as usize];
             let certain = own.surface.kind == Kind::Plane && own.exact;
-            (regions.all[large as usize].exact || !certain) && own.pieces.iter()
-                .all(|&p| view.fits(p, surface, *sign, tolerance))
+            (regions.all[large as usize].exact || !certain)
+                && own
+                    .pieces
+                    .iter()
+                    .all(|&p| view.fits(p, surface, *sign, tolerance))
         };
         let taker = beside
             .into_iter()

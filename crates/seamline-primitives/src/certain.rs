@@ -66,7 +66,5 @@ fn on_one_line(items: &[usize], at: impl Fn(usize) -> DVec3, width: f64) -> bool
     };
     let a = far(at(first));
     let b = far(at(a));
-    items
-        .iter()
-        .all(|&i| near_line(at(a), at(b), at(i), width))
+    items.iter().all(|&i| near_line(at(a), at(b), at(i), width))
 }

@@ -21,6 +21,9 @@ const BEHIND: f64 = 0.15;
 /// A crease is at most so many times as sharp as the dihedral angle.
 const MOST_DIHEDRALS: f64 = 1.5;
 
+/// Dihedral angle, in degrees, up to which an edge is inside a plane.
+const FLAT_DEG: f64 = 1e-3;
+
 /// Finds the turn of the surface at edges: on either side a quadratic height field is fitted to the vertices
 /// near the edge, and the turn is the angle between the two fields' slopes there. Inside a smooth surface
 /// it is near zero however coarse the steps; at a crease it is the crease.
@@ -37,7 +40,7 @@ impl CreaseAngles<'_> {
     pub fn at(&self, edge: u32, faces: [u32; 2]) -> f64 {
         let normals = faces.map(|f| self.triangles.normals[f as usize]);
         let dihedral = normals[0].angle_between(normals[1]) * 180.0 / PI;
-        if !(dihedral > 1e-3) {
+        if dihedral.is_nan() || dihedral <= FLAT_DEG {
             return 0.0;
         }
         let [a, b] = self.topology.edge_vertices[edge as usize].map(|v| self.positions[v as usize]);
@@ -71,7 +74,10 @@ impl CreaseAngles<'_> {
             .iter()
             .map(|&v| frame.local(self.positions[v as usize]))
             .collect();
-        let radius = local.iter().map(|x| x.truncate().length()).fold(0.0, f64::max);
+        let radius = local
+            .iter()
+            .map(|x| x.truncate().length())
+            .fold(0.0, f64::max);
         let mut m = [[0.0; 6]; 6];
         let mut right = [0.0; 6];
         for x in &local {

@@ -167,7 +167,9 @@ impl Part<'_> {
                 }
                 vertex = self.topology.far_end(next, vertex);
                 edge = next;
-                let meets = self.inner_edges_at(vertex).any(|e| e != next && creased.contains(&e));
+                let meets = self
+                    .inner_edges_at(vertex)
+                    .any(|e| e != next && creased.contains(&e));
                 if meets || self.on_border(vertex) {
                     break;
                 }
@@ -209,12 +211,7 @@ impl Part<'_> {
         }
     }
 
-    fn cheapest_path(
-        &self,
-        start: u32,
-        from: u32,
-        creased: &HashSet<u32>,
-    ) -> Option<Vec<u32>> {
+    fn cheapest_path(&self, start: u32, from: u32, creased: &HashSet<u32>) -> Option<Vec<u32>> {
         let own = self.crease_vertices(from, creased);
         let goal = |vertex: u32| {
             let meets = || self.inner_edges_at(vertex).any(|e| creased.contains(&e));

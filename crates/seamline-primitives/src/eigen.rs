@@ -30,12 +30,7 @@ pub(crate) fn symmetric<const N: usize>(mut m: [[f64; N]; N]) -> ([f64; N], [[f6
 }
 
 /// One rotation that makes `m[p][q]` zero; row `i` of `vectors` is the `i`-th eigenvector so far.
-fn rotate<const N: usize>(
-    m: &mut [[f64; N]; N],
-    vectors: &mut [[f64; N]; N],
-    p: usize,
-    q: usize,
-) {
+fn rotate<const N: usize>(m: &mut [[f64; N]; N], vectors: &mut [[f64; N]; N], p: usize, q: usize) {
     if m[p][q] == 0.0 {
         return;
     }

@@ -16,8 +16,6 @@ pub(crate) struct Hypothesis {
     pub pieces: Vec<u32>,
     /// Distinct vertices less degrees of freedom.
     pub evidence: i64,
-    /// Root mean square of their distances.
-    pub rms: f64,
     /// Do its vertices lie on it as exactly as they are stored? A free form comes near many surfaces, and
     /// grows until the tolerance ends it; hardly one leaves its vertices at the precision of their numbers.
     pub exact: bool,
@@ -105,7 +103,6 @@ impl View<'_> {
             };
         let rms = (squares / points.len() as f64).sqrt();
         Hypothesis {
-            rms,
             exact: rms <= self.precision,
             strong,
             surface,
@@ -152,13 +149,23 @@ fn is_strong(surface: &Surface, points: &[DVec3], apart: f64) -> bool {
             let angle = |x: DVec3| (x - surface.point).dot(v).atan2((x - surface.point).dot(u));
             levels(points.iter().map(|&x| angle(x) * surface.a), apart, 0.0) >= 4
         }
-        Kind::Cone => levels(points.iter().map(|&x| surface.about_axis(x).height), apart, LEVEL_SHARE) >= 3,
+        Kind::Cone => {
+            levels(
+                points.iter().map(|&x| surface.about_axis(x).height),
+                apart,
+                LEVEL_SHARE,
+            ) >= 3
+        }
         Kind::Torus => {
             let angle = |x: DVec3| {
                 let at = surface.about_axis(x);
                 at.height.atan2(at.distance - surface.a)
             };
-            levels(points.iter().map(|&x| angle(x) * surface.b), apart, LEVEL_SHARE) >= 4
+            levels(
+                points.iter().map(|&x| angle(x) * surface.b),
+                apart,
+                LEVEL_SHARE,
+            ) >= 4
         }
     }
 }

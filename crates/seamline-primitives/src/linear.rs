@@ -1,10 +1,7 @@
 //! Small systems of linear equations.
 
 /// Cholesky's method on the lower half. `None` if the matrix is not positive definite.
-pub(crate) fn solve<const N: usize>(
-    mut m: [[f64; N]; N],
-    mut right: [f64; N],
-) -> Option<[f64; N]> {
+pub(crate) fn solve<const N: usize>(mut m: [[f64; N]; N], mut right: [f64; N]) -> Option<[f64; N]> {
     for i in 0..N {
         for j in 0..=i {
             let mut sum = m[i][j];

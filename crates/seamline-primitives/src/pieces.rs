@@ -90,8 +90,11 @@ impl Triangles {
             all.normals.push(cross.normalize_or_zero());
             all.centroids.push((a + b + c) / 3.0);
             all.areas.push(doubled / 2.0);
-            all.heights
-                .push(if longest > 0.0 { doubled / longest } else { 0.0 });
+            all.heights.push(if longest > 0.0 {
+                doubled / longest
+            } else {
+                0.0
+            });
         }
         all
     }
@@ -239,12 +242,24 @@ fn grow_flat(
         if of_face[seed as usize] != NONE {
             continue;
         }
-        let mut plane = (triangles.normals[seed as usize], triangles.centroids[seed as usize]);
+        let mut plane = (
+            triangles.normals[seed as usize],
+            triangles.centroids[seed as usize],
+        );
         let mut members = vec![seed];
         of_face[seed as usize] = count;
         loop {
             let fitted = members.len();
-            spread_flat(positions, topology, triangles, tolerance, plane, count, &mut members, &mut of_face);
+            spread_flat(
+                positions,
+                topology,
+                triangles,
+                tolerance,
+                plane,
+                count,
+                &mut members,
+                &mut of_face,
+            );
             // A plane known from few triangles errs far away from them.
             if members.len() < 2 * fitted {
                 break;

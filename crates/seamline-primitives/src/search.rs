@@ -90,7 +90,7 @@ impl<'a> Search<'a> {
                 continue;
             }
             failed[seed as usize] = true;
-            for hypothesis in self.from_seed(seed) {
+            for hypothesis in self.hypotheses_of(seed) {
                 failed[seed as usize] &= !hypothesis.strong;
                 if hypothesis.strong && hypothesis.pieces.len() >= COVERS {
                     for &piece in &hypothesis.pieces {
@@ -114,7 +114,7 @@ impl<'a> Search<'a> {
     }
 
     /// The best hypothesis of each kind that holds the seed.
-    fn from_seed(&mut self, seed: u32) -> Vec<Hypothesis> {
+    fn hypotheses_of(&mut self, seed: u32) -> Vec<Hypothesis> {
         let mut best: [Option<Hypothesis>; 4] = Default::default();
         for triple in self.triples(seed) {
             for kind in [Kind::Cylinder, Kind::Cone] {
@@ -182,7 +182,8 @@ impl<'a> Search<'a> {
             return true;
         }
         let points = self.few(&vertices);
-        let pick = |of: &[DVec3]| -> Vec<DVec3> { around.iter().map(|&p| of[p as usize]).collect() };
+        let pick =
+            |of: &[DVec3]| -> Vec<DVec3> { around.iter().map(|&p| of[p as usize]).collect() };
         let neighbourhood = Neighbourhood {
             normals: &pick(&self.view.pieces.normals),
             centroids: &pick(&self.view.pieces.centroids),
@@ -196,13 +197,12 @@ impl<'a> Search<'a> {
                 continue;
             }
             let slot = &mut best[kind as usize - 1];
-            if slot
-                .as_ref()
-                .is_some_and(|h| self.view.fits(seed, &fit.surface, h.sign, self.tolerance) && {
+            if slot.as_ref().is_some_and(|h| {
+                self.view.fits(seed, &fit.surface, h.sign, self.tolerance) && {
                     let same = around.iter().all(|p| h.pieces.contains(p));
                     same && h.pieces.len() > around.len()
-                })
-            {
+                }
+            }) {
                 continue;
             }
             if let Some(grown) = self.grow(seed, fit.surface, around.len()) {
@@ -309,7 +309,9 @@ impl<'a> Search<'a> {
             triples.extend(near[..i].iter().map(|&b| vec![seed, a, b]));
         }
         for &a in &near {
-            let beyond = self.neighbours(a).filter(|p| *p != seed && !near.contains(p));
+            let beyond = self
+                .neighbours(a)
+                .filter(|p| *p != seed && !near.contains(p));
             triples.extend(beyond.take(3).map(|b| vec![seed, a, b]));
         }
         triples.truncate(MOST_TRIPLES);

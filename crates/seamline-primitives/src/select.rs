@@ -63,7 +63,13 @@ pub(crate) fn select(
     tolerance: f64,
     mut believe: impl FnMut(&Regions, &Hypothesis) -> bool,
 ) -> Vec<Hypothesis> {
-    let rank = |h: &Hypothesis, i: usize| (h.evidence, std::cmp::Reverse(h.surface.kind), std::cmp::Reverse(i));
+    let rank = |h: &Hypothesis, i: usize| {
+        (
+            h.evidence,
+            std::cmp::Reverse(h.surface.kind),
+            std::cmp::Reverse(i),
+        )
+    };
     let mut waiting: Vec<Option<Hypothesis>> = hypotheses.into_iter().map(Some).collect();
     let mut heap: BinaryHeap<_> = waiting
         .iter()

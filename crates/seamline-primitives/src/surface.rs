@@ -188,3 +188,94 @@ impl Surface {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    fn vector() -> impl Strategy<Value = DVec3> {
+        prop::array::uniform3(-2.0..2.0f64).prop_map(DVec3::from_array)
+    }
+
+    fn surface() -> impl Strategy<Value = Surface> {
+        let kinds = prop::sample::select(vec![
+            Kind::Plane,
+            Kind::Cylinder,
+            Kind::Cone,
+            Kind::Sphere,
+            Kind::Torus,
+        ]);
+        (kinds, vector(), vector(), 0.5..2.0f64, 0.1..1.2f64).prop_map(
+            |(kind, point, axis, a, b)| Surface {
+                kind,
+                point,
+                axis: axis.normalize_or(DVec3::X),
+                a,
+                b,
+            },
+        )
+    }
+
+    const STEP: f64 = 1e-6;
+
+    proptest! {
+        #[test]
+        fn the_distance_grows_along_the_gradient_as_fast_as_one_goes(
+            surface in surface(),
+            x in vector(),
+        ) {
+            let gradient = surface.gradient(x);
+            let ahead = surface.distance(x + STEP * gradient);
+            let behind = surface.distance(x - STEP * gradient);
+            let near_a_singular_place = surface.about_axis(x).distance < 0.05
+                || surface.off_tube(x) < 0.05
+                || (x - surface.point).length() < 0.05;
+            prop_assume!(!near_a_singular_place);
+            prop_assert!(((ahead - behind) / (2.0 * STEP) - 1.0).abs() < 1e-5);
+        }
+
+        #[test]
+        fn derivatives_are_those_of_the_distance(surface in surface(), x in vector()) {
+            let near_a_singular_place = surface.about_axis(x).distance < 0.05
+                || surface.off_tube(x) < 0.05
+                || (x - surface.point).length() < 0.05;
+            prop_assume!(!near_a_singular_place);
+            let (distance, row) = surface.derivatives(x);
+            prop_assert!((distance - surface.distance(x)).abs() < 1e-12);
+            for (i, derivative) in row.into_iter().enumerate() {
+                // The axis is a direction: steps along it do not count.
+                if (3..6).contains(&i) {
+                    continue;
+                }
+                let stepped = |by: f64| {
+                    let mut next = surface;
+                    match i {
+                        0..3 => next.point[i] += by,
+                        6 => next.a += by,
+                        _ => next.b += by,
+                    }
+                    next.distance(x)
+                };
+                let slope = (stepped(STEP) - stepped(-STEP)) / (2.0 * STEP);
+                prop_assert!((slope - derivative).abs() < 1e-5, "{i}: {slope} {derivative}");
+            }
+            let across = surface.axis.any_orthonormal_vector();
+            let turned = |by: f64| {
+                let axis = (surface.axis + by * across).normalize();
+                Surface { axis, ..surface }.distance(x)
+            };
+            let slope = (turned(STEP) - turned(-STEP)) / (2.0 * STEP);
+            let derivative = DVec3::new(row[3], row[4], row[5]).dot(across);
+            prop_assert!((slope - derivative).abs() < 1e-5, "axis: {slope} {derivative}");
+        }
+    }
+
+    impl Surface {
+        /// Distance from the circle in a torus' tube.
+        fn off_tube(&self, x: DVec3) -> f64 {
+            let at = self.about_axis(x);
+            (at.distance - self.a).hypot(at.height)
+        }
+    }
+}

@@ -10,7 +10,7 @@ use crate::regions::{Ending, Regions};
 use crate::surface::Kind;
 
 /// Evidence from which no border is asked: of a surface its vertices lie on exactly, and of one they come near.
-const ENOUGH_IF_EXACT: i64 = 6;
+const ENOUGH_IF_EXACT: i64 = 5;
 const BEYOND_DOUBT: i64 = 1000;
 /// Evidence below which walls do not count: each tile of a narrow band between two walls has walls on most of
 /// its border.

@@ -76,7 +76,11 @@ fn collect(
         patch_surfaces(patches.count, &labels, shapes, &face_surfaces, &surfaces)
     });
     let mut segmentation = describe(&mesh.0, &rows, patches);
-    for (patch, surface) in segmentation.patches.iter_mut().zip(found.into_iter().flatten()) {
+    for (patch, surface) in segmentation
+        .patches
+        .iter_mut()
+        .zip(found.into_iter().flatten())
+    {
         patch.surface = Some(surface);
     }
     segmentation

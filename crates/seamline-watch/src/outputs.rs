@@ -230,13 +230,7 @@ fn write_one(
                 .map(|patch| patch.surface.map(|surface| surface.shape.number()))
                 .collect();
             let patches = &segmentation.face_patches;
-            write_ply(
-                out,
-                &mesh.polygons,
-                quantities,
-                patches,
-                types.as_deref(),
-            )
+            write_ply(out, &mesh.polygons, quantities, patches, types.as_deref())
         }
         OutputFile::Boundaries => {
             let curves = segmentation.boundaries.iter();

@@ -132,7 +132,7 @@ pub fn find(positions: &[DVec3], topology: &Topology, farthest: f64) -> Found {
         .collect();
     creases::split(&scaled, topology, &triangles, &parts.forms, &mut of_face);
     let (of_face, part_of) = connected(topology, &of_face);
-    let surfaces = describe::surfaces(view, &regions, &parts, &part_of);
+    let surfaces = describe::surfaces(view, &regions, &parts, &part_of, ladder[0]);
     let exact = regions.alive().filter(|&r| regions.all[r as usize].exact);
     let exact: f64 = exact
         .map(|r| view.area(&regions.all[r as usize].pieces))

@@ -23,6 +23,7 @@ mod score;
 mod sharp;
 mod spatial_order;
 mod tensor;
+mod threshold;
 
 use std::sync::Arc;
 
@@ -46,6 +47,7 @@ pub use region_graph::{Link, Merged, RegionGraph};
 pub use score::{ScoreSettings, angle_score, curvature_score, facet_scores, vertex_scores};
 pub use sharp::{SharpSettings, dihedral_angles, sharp_edges, sharp_vertices};
 pub use spatial_order::SpatialOrder;
+pub use threshold::{Threshold, widest_gap};
 pub use tensor::{Bending, TensorForm, TensorPair, edge_tensor, face_tensors, vertex_tensors};
 
 /// The built-in steps and their tables of settings.

@@ -11,6 +11,7 @@
 
 mod column;
 pub mod components;
+pub mod contract;
 mod job;
 mod pipeline;
 pub mod plugin;

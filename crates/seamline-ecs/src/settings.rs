@@ -234,9 +234,6 @@ fn overlay(
             ));
         };
         match (known, value) {
-            (Value::Table(known), Value::Table(value)) => {
-                overlay(known, value, &format!("{dotted}."), several_kinds)?
-            }
             (_, Value::Float(number)) if !number.is_finite() => {
                 return Err(SettingsError::new(
                     dotted,
@@ -247,9 +244,11 @@ fn overlay(
             (known @ Value::Float(_), Value::Integer(whole)) => {
                 *known = Value::Float(*whole as f64)
             }
-            (known, value) if known.same_type(value) || several_kinds.contains(&dotted) => {
-                *known = value.clone()
+            (known, value) if several_kinds.contains(&dotted) => *known = value.clone(),
+            (Value::Table(known), Value::Table(value)) => {
+                overlay(known, value, &format!("{dotted}."), several_kinds)?
             }
+            (known, value) if known.same_type(value) => *known = value.clone(),
             (known, value) => {
                 return Err(SettingsError::new(
                     dotted,
@@ -271,6 +270,18 @@ fn kind(value: &Value) -> &'static str {
         Value::Datetime(_) => "a date",
         Value::Array(_) => "a list",
         Value::Table(_) => "a table",
+    }
+}
+
+/// Lays tables over tables: what `given` has replaces what `base` has, key by key.
+pub fn lay_over(base: &mut Table, given: &Table) {
+    for (key, value) in given {
+        match (base.get_mut(key), value) {
+            (Some(Value::Table(base)), Value::Table(given)) => lay_over(base, given),
+            _ => {
+                base.insert(key.clone(), value.clone());
+            }
+        }
     }
 }
 

@@ -65,9 +65,7 @@ pub fn reduce(
         Threshold::Auto if wanted > 0 => f64::INFINITY,
         Threshold::Auto => {
             let to_the_end = Reduction::of(graph.clone(), settings, barely_curved, border);
-            let m = to_the_end.merged_at();
-            if std::env::var_os("DBG_GAP").is_some() { eprintln!("GAP {m:?}"); }
-            widest_gap(&m, settings.distance)
+            widest_gap(&to_the_end.merged_at(), settings.distance)
         }
     };
     let mut reduction = Reduction::of(graph, settings, barely_curved, border);

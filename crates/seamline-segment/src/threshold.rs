@@ -44,7 +44,11 @@ fn range(distance: RegionDistance) -> [f64; 3] {
 /// `merged_at` is in the order of the merges. What counts is the greatest distance so far: a threshold below it
 /// would have stopped before.
 pub fn widest_gap(merged_at: &[f64], distance: RegionDistance) -> f64 {
-    let [low, usual, high] = range(distance);
+    let [mut low, usual, mut high] = range(distance);
+    let env = |n: &str, d: f64| std::env::var(n).ok().and_then(|t| t.parse().ok()).unwrap_or(d);
+    low = env("DBG_LOW", low);
+    high = env("DBG_HIGH", high);
+    let s = env("DBG_S", 1e9);
     let mut best = (0.0, usual);
     let mut at = low;
     for &next in merged_at.iter().chain([&f64::INFINITY]) {
@@ -52,7 +56,7 @@ pub fn widest_gap(merged_at: &[f64], distance: RegionDistance) -> f64 {
             continue;
         }
         let end = next.min(high);
-        let gap = (end / at).ln();
+        let gap = (end / at).ln() * (-((at * end).sqrt() / usual).ln().abs() / s).exp();
         if gap > best.0 {
             best = (gap, (at * end).sqrt());
         }

@@ -147,6 +147,7 @@ pub fn run(
     options: RunOptions,
     orders: Receiver<Order>,
 ) -> Result<Summary, WatchError> {
+    let setup = Arc::new(setup);
     let mut lookout = Lookout::new(&setup.config, options.once);
     if options.dry_run {
         return Ok(Summary {
@@ -183,7 +184,7 @@ pub fn run(
             StartError::Ledger(error) => WatchError::Ledger(error),
         })?;
     let books = Books {
-        setup: Arc::new(setup),
+        setup,
         reload,
         ledger,
         lookout,
@@ -201,7 +202,7 @@ pub fn run(
 }
 
 /// The files that are not done in the state they are in, as far as there is a ledger to tell.
-fn not_done_yet(files: Vec<FileFact>, setup: &Setup) -> Vec<PathBuf> {
+fn not_done_yet(files: Vec<FileFact>, setup: &Arc<Setup>) -> Vec<PathBuf> {
     let ledger = Reader::open(&setup.config.state);
     let rows = ledger.and_then(|ledger| ledger.rows()).unwrap_or_default();
     let last: HashMap<_, _> = rows.iter().map(|row| (&row.path, row)).collect();
@@ -209,7 +210,7 @@ fn not_done_yet(files: Vec<FileFact>, setup: &Setup) -> Vec<PathBuf> {
         last.get(&file.path).is_some_and(|row| {
             row.state == JobState::Done
                 && row.stamp == file.stamp.word()
-                && row.settings.as_ref() == Some(&setup.settings_hash)
+                && row.settings.as_ref() == Some(&setup.for_file(&file.path).settings_hash)
         })
     };
     let open = files.into_iter().filter(|file| !is_done(file));

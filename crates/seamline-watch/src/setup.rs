@@ -1,12 +1,14 @@
 //! What a job is done with: a configuration and the pipeline it asks for, never changed, only replaced.
 
 use std::collections::BTreeMap;
+use std::path::Path;
 use std::sync::Arc;
 
 use seamline_ecs::Pipeline;
 use toml::Value;
 
 use crate::config::Config;
+use crate::include::Patterns;
 use crate::outputs::OutputFile;
 
 /// A configuration, its pipeline, and the hash of all that results depend on.
@@ -20,6 +22,8 @@ pub struct Setup {
     pub settings_hash: String,
     /// Are faces split, so that a mesh takes more memory ([`crate::memory::estimate`])?
     pub enriched: bool,
+    /// The pipelines of files that a rule takes.
+    rules: Vec<(Patterns, Arc<Pipeline>)>,
 }
 
 impl Setup {
@@ -43,6 +47,27 @@ impl Setup {
             config,
             pipeline,
             settings_hash: blake3::hash(said.as_bytes()).to_hex().to_string(),
+            rules: Vec::new(),
+        }
+    }
+
+    /// Has the files that a pattern takes, by their path below the watched folder, go through another pipeline. The
+    /// first that takes a file holds.
+    pub fn with_rules(mut self, rules: Vec<(Patterns, Arc<Pipeline>)>) -> Self {
+        self.rules = rules;
+        self
+    }
+
+    /// What a file is cut with: this, or the same with the pipeline of the rule that takes it.
+    pub fn for_file(self: &Arc<Self>, path: &Path) -> Arc<Self> {
+        let roots = self.config.watch.iter();
+        let below = roots.filter_map(|watched| path.strip_prefix(&watched.root).ok());
+        let relative = below.last().unwrap_or(path);
+        match self.rules.iter().find(|(files, _)| files.take(relative)) {
+            None => Arc::clone(self),
+            Some((_, pipeline)) => {
+                Arc::new(Self::new(self.config.clone(), Arc::clone(pipeline)))
+            }
         }
     }
 }

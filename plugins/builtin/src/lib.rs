@@ -8,7 +8,7 @@ use seamline_histogram::HistogramSettings;
 use seamline_kmeans::KMeansSettings;
 use seamline_mean_shift::MeanShiftSettings;
 
-/// All plugins Seamline comes with. To add one: a dependency and a line.
+/// All plugins Seamline comes with, and programs of anybody's own. To add one: a dependency and a line.
 pub fn registry() -> Registry {
     Registry::default()
         .with_classifier::<KMeansSettings>()
@@ -17,4 +17,5 @@ pub fn registry() -> Registry {
         .with_classifier::<MeanShiftSettings>()
         .with_rectifier::<ContourTrackingSettings>()
         .with_rectifier::<GraphCutSettings>()
+        .with_commands(seamline_command::systems)
 }

@@ -44,8 +44,8 @@ impl StepSettings for GmmSettings {
         Self {
             max_components: 16,
             barely_curved: 0.4,
-            least_spread: 0.1,
-            max_rounds: 100,
+            least_spread: 0.2,
+            max_rounds: 20,
         }
     }
 

@@ -26,6 +26,9 @@ pub struct GraphCutSettings {
     pub band_rings: u32,
     /// An edge of score 0 costs this share of one of score 90: what is left to decide by length alone.
     pub length_share: f64,
+    /// An edge that is a boundary already costs this share of what it would cost else: how much better a cut must
+    /// be than the boundary that is there.
+    pub kept_share: f64,
 }
 
 impl StepSettings for GraphCutSettings {
@@ -34,7 +37,8 @@ impl StepSettings for GraphCutSettings {
     fn defaults(_: Profile) -> Self {
         Self {
             band_rings: 3,
-            length_share: 0.05,
+            length_share: 0.005,
+            kept_share: 0.5,
         }
     }
 
@@ -48,6 +52,11 @@ impl StepSettings for GraphCutSettings {
             self.length_share > 0.0 && self.length_share <= 1.0,
             "length_share",
             "a share above 0, 1 at most",
+        )?;
+        OutOfRange::unless(
+            self.kept_share > 0.0 && self.kept_share <= 1.0,
+            "kept_share",
+            "a share above 0, 1 at most",
         )
     }
 }
@@ -57,7 +66,7 @@ impl Rectifier for GraphCutSettings {
         "cuts anew within a band along each boundary, where boundary score and length are least";
 
     fn rectify(&self, mesh: &LabelledMesh<'_>) -> Result<Labels, StepError> {
-        let costs = costs(mesh, self.length_share);
+        let costs = costs(mesh, self);
         let mut of_face = mesh.labels.to_vec();
         let done = recut(mesh.topology, &costs, self.band_rings, &mut of_face);
         Ok(Labels {
@@ -74,9 +83,10 @@ impl Rectifier for GraphCutSettings {
 /// Steps in which costs are counted: a cut is compared in whole numbers, so that equal is equal.
 const STEPS_A_MEAN_EDGE: f64 = (1u32 << 20) as f64;
 
-/// What each edge costs as a boundary: `length (length_share + (1 - length_share) score / 90)`, in whole steps of
-/// a millionth of the mean edge, one at least. An edge that is sharp costs as one of score 0.
-fn costs(mesh: &LabelledMesh<'_>, length_share: f64) -> Vec<u64> {
+/// What each edge costs as a boundary: `length (length_share + (1 - length_share) score / 90)`, and `kept_share` of
+/// that if it is one; in whole steps of a millionth of the mean edge, one at least. An edge that is sharp costs
+/// as one of score 0.
+fn costs(mesh: &LabelledMesh<'_>, settings: &GraphCutSettings) -> Vec<u64> {
     let count = mesh.scores.len();
     let lengths: Vec<f64> = (0..count).map(|edge| mesh.edge_length(edge)).collect();
     let mean = lengths.iter().sum::<f64>() / count.max(1) as f64;
@@ -92,7 +102,13 @@ fn costs(mesh: &LabelledMesh<'_>, length_share: f64) -> Vec<u64> {
             } else {
                 mesh.scores[edge].0 / 90.0
             };
-            let cost = lengths[edge] * (length_share + (1.0 - length_share) * score);
+            let is_boundary = mesh
+                .topology
+                .face_pair(edge)
+                .is_some_and(|[a, b]| mesh.labels[a as usize] != mesh.labels[b as usize]);
+            let kept = if is_boundary { settings.kept_share } else { 1.0 };
+            let share = settings.length_share;
+            let cost = kept * lengths[edge] * (share + (1.0 - share) * score);
             ((cost * steps).round() as u64).max(1)
         })
         .collect()

@@ -36,7 +36,7 @@ impl StepSettings for HistogramSettings {
         Self {
             barely_curved: 0.4,
             bin: 0.02,
-            smoothing: 0.05,
+            smoothing: 0.02,
             valley_below_share: 0.5,
         }
     }

@@ -32,7 +32,7 @@ impl StepSettings for MeanShiftSettings {
     fn defaults(_: Profile) -> Self {
         Self {
             barely_curved: 0.4,
-            bandwidth: 0.15,
+            bandwidth: 0.12,
         }
     }
 

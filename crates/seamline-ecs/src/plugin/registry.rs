@@ -7,14 +7,14 @@ use toml::Table;
 use super::{
     Classifier, CommandSettings, Rectifier, SwappableStage, classifier_systems, rectifier_systems,
 };
-use crate::settings::{self, SettingsError, SettingsTable, StepSettings};
+use crate::settings::{self, OutOfRange, SettingsError, SettingsTable, StepSettings};
 use crate::stage::StageSystems;
 
 /// Makes a plugin's systems anew, for each worker.
 pub type MakeSystems = Arc<dyn Fn() -> StageSystems + Send + Sync>;
 
 /// The systems of a stage that is filled by a program of its own.
-pub type OutsideSystems = fn(SwappableStage, &CommandSettings) -> MakeSystems;
+pub type OutsideSystems = fn(SwappableStage, &CommandSettings) -> Result<MakeSystems, OutOfRange>;
 
 /// A registered plugin.
 #[derive(Clone, Copy)]
@@ -119,23 +119,25 @@ impl Registry {
     }
 
     /// The systems of a stage that a program fills.
+    ///
+    /// # Errors
+    ///
+    /// Settings of the command out of range, and a registry without commands.
     pub fn outside(
         &self,
         stage: SwappableStage,
         command: &CommandSettings,
     ) -> Result<MakeSystems, SettingsError> {
         let key = format!("pipeline.{}", stage.key());
-        command.check().map_err(|wrong| {
-            SettingsError::new(
-                format!("{key}.{}", wrong.key),
-                "out of range",
-                format!("wants {}", wrong.wants),
-            )
-        })?;
+        let wrong = |wrong: OutOfRange| {
+            let hint = format!("wants {}", wrong.wants);
+            SettingsError::new(format!("{key}.{}", wrong.key), "out of range", hint)
+        };
+        command.check().map_err(wrong)?;
         match self.outside {
-            Some(systems) => Ok(systems(stage, command)),
+            Some(systems) => systems(stage, command).map_err(wrong),
             None => Err(SettingsError::new(
-                key,
+                key.clone(),
                 "is a command, and this program starts none",
                 "name a plugin; see `seamline plugins`",
             )),

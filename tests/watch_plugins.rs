@@ -11,9 +11,7 @@ use crossbeam_channel::{Sender, unbounded};
 use schemars::JsonSchema;
 use seamline_ecs::components::SampleCluster;
 use seamline_ecs::settings::{Profile, StepSettings};
-use seamline_ecs::{
-    Classifier, Clusters, CurvatureSamples, Pipeline, Registry, StepError, tables,
-};
+use seamline_ecs::{Classifier, Clusters, CurvatureSamples, Pipeline, Registry, StepError, tables};
 use seamline_segment::builtin_steps;
 use seamline_tests::daemon::{Home, LIMIT, Metrics, cuboid, cuboids, get, wait_within};
 use seamline_watch::{Config, ConfigFile, Order, RunOptions, Setup, Summary, run};

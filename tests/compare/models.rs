@@ -28,13 +28,21 @@ pub fn models() -> Option<Vec<Model>> {
         .collect();
     paths.sort();
     let load = |path: &std::path::PathBuf| {
-        let name = path.file_stem().and_then(|name| name.to_str()).unwrap_or_default();
-        let variant = VARIANTS.iter().position(|variant| name.ends_with(variant))?;
+        let name = path
+            .file_stem()
+            .and_then(|name| name.to_str())
+            .unwrap_or_default();
+        let variant = VARIANTS
+            .iter()
+            .position(|variant| name.ends_with(variant))?;
         let labels = fs::read_to_string(path.with_extension("seg")).expect("its truth");
         Some(Model {
             variant,
             mesh: Arc::new(weld(read(path).expect("the model reads"), 0.0)),
-            truth: labels.lines().map(|line| line.parse().expect("a label")).collect(),
+            truth: labels
+                .lines()
+                .map(|line| line.parse().expect("a label"))
+                .collect(),
         })
     };
     Some(paths.iter().filter_map(load).collect())
@@ -66,14 +74,20 @@ impl Row {
         for model in models {
             let cut = worker.segment(Arc::clone(&model.mesh)).expect("it is cut");
             let found = agreement(&model.mesh, &model.truth, &cut.face_patches);
-            let alike = models.iter().filter(|other| other.variant == model.variant).count() as f64;
+            let alike = models
+                .iter()
+                .filter(|other| other.variant == model.variant)
+                .count() as f64;
             let mean = &mut row.means[model.variant];
             mean.ari += found.ari / alike;
             mean.boundary_f1 += found.boundary_f1 / alike;
             mean.exact += found.exact / alike;
             row.patches += cut.patches.len() as f64 / models.len() as f64;
             for (sum, stage) in row.seconds.iter_mut().zip(["classify", "rectify"]) {
-                let record = cut.stages.iter().find(|record| record.stage.name() == stage);
+                let record = cut
+                    .stages
+                    .iter()
+                    .find(|record| record.stage.name() == stage);
                 *sum += record.map_or(0.0, |record| record.seconds);
             }
         }

@@ -32,7 +32,10 @@ fn a_program_classifies_mesh_after_mesh() {
         let mut worker = worker(manner, "");
         let first = worker.segment(torus()).unwrap();
         for _ in 0..5 {
-            assert_eq!(worker.segment(torus()).unwrap().face_patches, first.face_patches);
+            assert_eq!(
+                worker.segment(torus()).unwrap().face_patches,
+                first.face_patches
+            );
         }
     }
 }
@@ -55,9 +58,18 @@ fn a_program_rectifies() {
 #[test]
 fn every_way_to_be_wrong_is_one_reason() {
     for (manner, what) in [
-        ("leaves", "ended with exit status: 7 before it had answered; it said: I do not like this mesh"),
-        ("leaves-unread", "ended with exit status: 0 before it had answered"),
-        ("garbage", "no Arrow IPC stream: it has `Hello! I` where a message begins"),
+        (
+            "leaves",
+            "ended with exit status: 7 before it had answered; it said: I do not like this mesh",
+        ),
+        (
+            "leaves-unread",
+            "ended with exit status: 0 before it had answered",
+        ),
+        (
+            "garbage",
+            "no Arrow IPC stream: it has `Hello! I` where a message begins",
+        ),
         ("endless", "no Arrow IPC stream"),
         ("half", "ended with exit status: 0 before it had answered"),
         ("short", "the classifier gave"),
@@ -72,7 +84,10 @@ fn every_way_to_be_wrong_is_one_reason() {
         let error = cut(manner, "").expect_err(manner);
         assert_eq!(error.stage.name(), "classify", "{manner}: {error}");
         assert!(error.message.contains(what), "{manner}: {error}");
-        assert!(!error.message.contains('\n') && !error.hint.is_empty(), "{manner}: {error}");
+        assert!(
+            !error.message.contains('\n') && !error.hint.is_empty(),
+            "{manner}: {error}"
+        );
     }
 }
 
@@ -83,7 +98,10 @@ fn a_silent_program_is_ended_in_time() {
         "pipeline.classifier={{ command = ['{FICKLE}', 'silent'], timeout_s = 0.5 }}"
     )]));
     let error = worker.segment(torus()).unwrap_err();
-    assert!(error.message.contains("gave no answer within 0.5 s"), "{error}");
+    assert!(
+        error.message.contains("gave no answer within 0.5 s"),
+        "{error}"
+    );
     assert!(begun.elapsed() < Duration::from_secs(10));
 }
 
@@ -99,8 +117,15 @@ fn a_program_that_dies_between_meshes_costs_one_mesh_and_is_started_again() {
 #[test]
 fn a_program_that_is_not_there_is_told() {
     let missing = "pipeline.classifier={ command = ['no-such-program-anywhere'] }";
-    let error = Worker::new(pipeline(&[missing])).segment(torus()).unwrap_err();
-    assert!(error.message.contains("`no-such-program-anywhere` cannot be started"), "{error}");
+    let error = Worker::new(pipeline(&[missing]))
+        .segment(torus())
+        .unwrap_err();
+    assert!(
+        error
+            .message
+            .contains("`no-such-program-anywhere` cannot be started"),
+        "{error}"
+    );
 }
 
 #[test]
@@ -109,16 +134,29 @@ fn wrong_settings_of_a_command_are_wrong_use_and_name_their_key() {
     let mesh = home.drop("part.obj", cuboid(1.0));
     for (value, said) in [
         ("{ command = [] }", "pipeline.classifier.command"),
-        ("{ command = ['x'], timeout_s = 0 }", "pipeline.classifier.timeout_s"),
-        ("{ command = ['x'], send = ['edges'] }", "samples, neighbours, vertices and faces"),
-        ("{ command = ['x'], timeout = 3 }", "unknown field `timeout`"),
+        (
+            "{ command = ['x'], timeout_s = 0 }",
+            "pipeline.classifier.timeout_s",
+        ),
+        (
+            "{ command = ['x'], send = ['edges'] }",
+            "samples, neighbours, vertices and faces",
+        ),
+        (
+            "{ command = ['x'], timeout = 3 }",
+            "unknown field `timeout`",
+        ),
         ("{ timeout_s = 3 }", "missing field `command`"),
         ("3", "the name of a plugin"),
     ] {
         let set = format!("pipeline.classifier={value}");
         let ran = run(seamline().arg("segment").arg(&mesh).args(["--set", &set])).ended(2);
         assert!(ran.err.contains(said), "{value}: {}", ran.err);
-        assert!(ran.err.contains("pipeline.classifier"), "{value}: {}", ran.err);
+        assert!(
+            ran.err.contains("pipeline.classifier"),
+            "{value}: {}",
+            ran.err
+        );
     }
 }
 
@@ -128,7 +166,13 @@ fn in_the_daemon_each_fault_is_one_job_in_quarantine_and_the_others_go_on() {
         "stable_for_ms = 100\n[[rules]]\nfiles = ['bad*']\nclassifier = {{ command = ['{FICKLE}', 'garbage'] }}\n\
          [pipeline]\nclassifier = {{ command = ['{FICKLE}', 'good'] }}\n"
     ));
-    for name in ["good1.obj", "bad1.obj", "good2.obj", "bad2.obj", "good3.obj"] {
+    for name in [
+        "good1.obj",
+        "bad1.obj",
+        "good2.obj",
+        "bad2.obj",
+        "good3.obj",
+    ] {
         // All of other content.
         let height = f64::from(name.bytes().map(u32::from).sum::<u32>());
         home.drop(name, cuboid(height));
@@ -151,14 +195,22 @@ fn in_the_daemon_each_fault_is_one_job_in_quarantine_and_the_others_go_on() {
 fn overhead_on_a_million_vertices() {
     let _ = bench("models");
     let mesh = Arc::new(weld(shapes::torus(2.0, 0.5, 2000, 500).polygons(), 0.0));
-    println!("{} vertices, {} triangles", mesh.positions().len(), mesh.triangles.len());
+    println!(
+        "{} vertices, {} triangles",
+        mesh.positions().len(),
+        mesh.triangles.len()
+    );
     let seconds = |settings: &[&str]| {
         let mut worker = Worker::new(pipeline(settings));
         worker.segment(Arc::clone(&mesh)).unwrap();
         let mut times: Vec<f64> = (0..5)
             .map(|_| {
                 let cut = worker.segment(Arc::clone(&mesh)).unwrap();
-                cut.stages.iter().find(|s| s.stage.name() == "classify").unwrap().seconds
+                cut.stages
+                    .iter()
+                    .find(|s| s.stage.name() == "classify")
+                    .unwrap()
+                    .seconds
             })
             .collect();
         times.sort_by(f64::total_cmp);
@@ -166,7 +218,11 @@ fn overhead_on_a_million_vertices() {
     };
     let vertices = "curvature.carrier=vertices";
     let built_in = seconds(&[vertices, "sharp.enrich=false"]);
-    let samples = seconds(&[vertices, "sharp.enrich=false", &classifier("good", ", send = ['samples']")]);
+    let samples = seconds(&[
+        vertices,
+        "sharp.enrich=false",
+        &classifier("good", ", send = ['samples']"),
+    ]);
     let all = seconds(&[vertices, "sharp.enrich=false", &classifier("good", "")]);
     println!("kmeans {built_in:.3} s; command, samples only {samples:.3} s; all tables {all:.3} s");
 }

@@ -22,7 +22,10 @@ fn broken(registry: &Registry, stage: SwappableStage, name: &str) -> Vec<String>
     let trials = trials(registry, stage, name).into_iter();
     let told = |trial: Trial| {
         let of = trial.of;
-        trial.breaks.into_iter().map(move |what| format!("{of}: {what}"))
+        trial
+            .breaks
+            .into_iter()
+            .map(move |what| format!("{of}: {what}"))
     };
     trials.flat_map(told).collect()
 }
@@ -66,9 +69,14 @@ settings!(Panicky, "panicky");
 settings!(Far, "far");
 
 /// Clusters of all samples, made by `of`.
-fn clusters(samples: &CurvatureSamples<'_>, of: impl Fn(usize) -> u32) -> Result<Clusters, StepError> {
+fn clusters(
+    samples: &CurvatureSamples<'_>,
+    of: impl Fn(usize) -> u32,
+) -> Result<Clusters, StepError> {
     Ok(Clusters {
-        of_sample: (0..samples.samples.len()).map(|i| SampleCluster(of(i))).collect(),
+        of_sample: (0..samples.samples.len())
+            .map(|i| SampleCluster(of(i)))
+            .collect(),
         ..Clusters::default()
     })
 }
@@ -130,13 +138,20 @@ fn whatever_breaks_the_contract_is_told() {
     for (stage, name, what) in [
         (classify, "short", "gave 0 clusters for 1 samples"),
         (classify, "wild", "the cluster 1"),
-        (classify, "moody", "gives another answer when asked a second time"),
+        (
+            classify,
+            "moody",
+            "gives another answer when asked a second time",
+        ),
         (classify, "moody", "is not told in one line"),
         (classify, "panicky", "panics: index out of bounds"),
         (SwappableStage::Rectify, "far", "gave face 0 the label 1"),
     ] {
         let broken = broken(&registry, stage, name);
-        assert!(broken.iter().any(|line| line.contains(what)), "{name}: {broken:#?}");
+        assert!(
+            broken.iter().any(|line| line.contains(what)),
+            "{name}: {broken:#?}"
+        );
     }
 }
 
@@ -151,11 +166,23 @@ fn the_command_says_what_a_plugin_keeps_and_what_a_stranger_breaks() {
     let kept = check(&["--stage", "rectify", stranger, "all"]).ended(0);
     assert!(kept.out.ends_with("keeps the contract\n"), "{}", kept.out);
     let broken = check(&[stranger, "forgetful"]).ended(1);
-    assert!(broken.out.contains("gives another answer"), "{}", broken.out);
+    assert!(
+        broken.out.contains("gives another answer"),
+        "{}",
+        broken.out
+    );
     let broken = check(&[stranger, "short"]).ended(1);
     assert!(broken.out.contains("clusters for"), "{}", broken.out);
     let unknown = check(&["kmean"]).ended(2);
-    assert!(unknown.err.contains("did you mean `kmeans`?"), "{}", unknown.err);
+    assert!(
+        unknown.err.contains("did you mean `kmeans`?"),
+        "{}",
+        unknown.err
+    );
     let unknown = check(&["--stage", "grow", "./x"]).ended(2);
-    assert!(unknown.err.contains("classify or rectify"), "{}", unknown.err);
+    assert!(
+        unknown.err.contains("classify or rectify"),
+        "{}",
+        unknown.err
+    );
 }

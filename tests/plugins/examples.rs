@@ -13,7 +13,10 @@ fn examples() -> PathBuf {
 fn works(program: &str, arguments: &[&str]) -> bool {
     let mut command = Command::new(program);
     command.args(arguments).current_dir(examples());
-    let quiet = command.stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::null());
+    let quiet = command
+        .stdin(Stdio::null())
+        .stdout(Stdio::null())
+        .stderr(Stdio::null());
     quiet.status().is_ok_and(|status| status.success())
 }
 
@@ -30,7 +33,9 @@ fn python() -> Option<String> {
 #[track_caller]
 fn keeps_the_contract(stage: &str, command: &[&str]) {
     let mut check = seamline();
-    check.args(["plugins", "check", "--stage", stage]).args(command);
+    check
+        .args(["plugins", "check", "--stage", stage])
+        .args(command);
     let ran = run(check.current_dir(examples())).ended(0);
     assert!(ran.out.ends_with("keeps the contract\n"), "{}", ran.out);
 }

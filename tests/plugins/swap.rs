@@ -21,13 +21,24 @@ fn the_classifier_is_swapped_by_reload_while_files_flow() {
     let home = Home::with(&with("kmeans", ""));
     let daemon: Daemon = home.start();
     let mut height = 0.0;
-    for (round, classifier) in ["kmeans", "histogram", "gmm", "mean-shift"].into_iter().enumerate() {
+    for (round, classifier) in ["kmeans", "histogram", "gmm", "mean-shift"]
+        .into_iter()
+        .enumerate()
+    {
         if round > 0 {
-            let before = daemon.log().matches("the configuration was read anew").count();
+            let before = daemon
+                .log()
+                .matches("the configuration was read anew")
+                .count();
             home.configure(&with(classifier, ""));
             daemon.signal(Signal::Hup);
             daemon.wait_for("the reload", || true);
-            while daemon.log().matches("the configuration was read anew").count() <= before {
+            while daemon
+                .log()
+                .matches("the configuration was read anew")
+                .count()
+                <= before
+            {
                 std::thread::sleep(std::time::Duration::from_millis(20));
             }
         }
@@ -36,13 +47,19 @@ fn the_classifier_is_swapped_by_reload_while_files_flow() {
             home.drop(format!("{classifier}-{i}.obj"), cuboid(height));
         }
         let last = format!("{classifier}-2.obj");
-        daemon.wait_for("the last of a round", || classifier_of(&home, &last).is_some());
+        daemon.wait_for("the last of a round", || {
+            classifier_of(&home, &last).is_some()
+        });
     }
     daemon.terminate();
     for classifier in ["kmeans", "histogram", "gmm", "mean-shift"] {
         for i in 0..3 {
             let name = format!("{classifier}-{i}.obj");
-            assert_eq!(classifier_of(&home, &name).as_deref(), Some(classifier), "{name}");
+            assert_eq!(
+                classifier_of(&home, &name).as_deref(),
+                Some(classifier),
+                "{name}"
+            );
         }
     }
 }
@@ -98,10 +115,22 @@ fn the_same_bytes_under_two_rules_are_cut_in_two_ways() {
 #[test]
 fn what_is_wrong_with_a_rule_is_told_with_its_line_and_key() {
     for (rule, said) in [
-        ("files = ['*.stl']\nclassifer = 'gmm'", "watch.toml:5: rules.classifer: unknown key"),
-        ("files = ['*.stl']\nclassifier = 'gmmm'", "watch.toml:5: rules.classifier: unknown classifier `gmmm`; did you mean `gmm`?"),
-        ("files = ['*.stl']\n[rules.settings.merge]\ntreshold = 3", "watch.toml:6: rules.settings.merge.treshold"),
-        ("files = ['*.stl']\nprofile = 'cda'", "watch.toml:5: rules.profile"),
+        (
+            "files = ['*.stl']\nclassifer = 'gmm'",
+            "watch.toml:5: rules.classifer: unknown key",
+        ),
+        (
+            "files = ['*.stl']\nclassifier = 'gmmm'",
+            "watch.toml:5: rules.classifier: unknown classifier `gmmm`; did you mean `gmm`?",
+        ),
+        (
+            "files = ['*.stl']\n[rules.settings.merge]\ntreshold = 3",
+            "watch.toml:6: rules.settings.merge.treshold",
+        ),
+        (
+            "files = ['*.stl']\nprofile = 'cda'",
+            "watch.toml:5: rules.profile",
+        ),
         ("classifier = 'gmm'", "watch.toml:3: rules.files"),
         ("files = ['a[']", "rules.files"),
     ] {

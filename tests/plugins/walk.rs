@@ -10,13 +10,18 @@ use seamline_tests::run;
 /// The first block of a language after a text.
 fn block<'a>(page: &'a str, after: &str, language: &str) -> &'a str {
     let (_, rest) = page.split_once(after).expect("the page names the file");
-    let (_, rest) = rest.split_once(&format!("```{language}\n")).expect("a block follows");
+    let (_, rest) = rest
+        .split_once(&format!("```{language}\n"))
+        .expect("a block follows");
     rest.split_once("```").expect("the block ends").0
 }
 
 #[test]
 fn the_classifier_of_the_walk_compiles_keeps_the_contract_and_cuts_a_part() {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..").canonicalize().unwrap();
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"))
+        .join("..")
+        .canonicalize()
+        .unwrap();
     let page = fs::read_to_string(root.join("plugins/README.md")).unwrap();
     let manifest = block(&page, "`plugins/bands/Cargo.toml`", "toml");
     let source = block(&page, "`plugins/bands/src/lib.rs`", "rust");
@@ -28,9 +33,14 @@ fn the_classifier_of_the_walk_compiles_keeps_the_contract_and_cuts_a_part() {
     fs::write(crate_folder.join("Cargo.toml"), manifest).unwrap();
     fs::write(crate_folder.join("src/lib.rs"), source).unwrap();
     let workspace = fs::read_to_string(root.join("Cargo.toml")).unwrap();
-    let members = workspace.lines().find(|line| line.starts_with("members")).unwrap();
+    let members = workspace
+        .lines()
+        .find(|line| line.starts_with("members"))
+        .unwrap();
     let alone = "members = [\"plugins/bands\", \"crates/seamline-ecs\", \"crates/seamline-segment\", \"crates/seamline-mesh\"]";
-    let workspace = workspace.replace(members, alone).replace("default-members", "# default-members");
+    let workspace = workspace
+        .replace(members, alone)
+        .replace("default-members", "# default-members");
     fs::write(walk.join("Cargo.toml"), workspace).unwrap();
     fs::copy(root.join("Cargo.lock"), walk.join("Cargo.lock")).unwrap();
     if !walk.join("crates").exists() {

@@ -47,7 +47,11 @@ fn exact(mesh: &Mesh, truth: &[u32], found: &[u32]) -> f64 {
 }
 
 fn adjusted_rand_index(mesh: &Mesh, truth: &[u32], found: &[u32]) -> f64 {
-    let whole: f64 = mesh.triangles.iter().map(|corners| area(mesh, corners)).sum();
+    let whole: f64 = mesh
+        .triangles
+        .iter()
+        .map(|corners| area(mesh, corners))
+        .sum();
     let mut both: BTreeMap<(u32, u32), f64> = BTreeMap::new();
     let (mut of_truth, mut of_found) = (BTreeMap::new(), BTreeMap::new());
     for (corners, (&t, &f)) in mesh.triangles.iter().zip(truth.iter().zip(found)) {
@@ -112,7 +116,10 @@ mod tests {
         assert!(one.ari.abs() < 1e-12 && one.boundary_f1 == 0.0 && one.exact == 0.0);
 
         let mut joined = truth.clone();
-        joined.iter_mut().filter(|label| **label == 1).for_each(|label| *label = 0);
+        joined
+            .iter_mut()
+            .filter(|label| **label == 1)
+            .for_each(|label| *label = 0);
         let four_of_six = agreement(&mesh, &truth, &joined);
         assert!((four_of_six.exact - 4.0 / 6.0).abs() < 1e-12);
     }

@@ -166,7 +166,10 @@ fn description(entry: &PluginEntry) -> Vec<String> {
     let is_plain = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '-';
     unless(
         !entry.name.is_empty() && entry.name.chars().all(is_plain),
-        format!("its name `{}` is not of small letters, digits and dashes", entry.name),
+        format!(
+            "its name `{}` is not of small letters, digits and dashes",
+            entry.name
+        ),
     );
     unless(
         !entry.summary.is_empty() && !entry.summary.contains('\n'),
@@ -177,7 +180,8 @@ fn description(entry: &PluginEntry) -> Vec<String> {
         schema["additionalProperties"] == Json::Bool(false),
         "unknown keys are not refused: `#[serde(deny_unknown_fields)]`".to_owned(),
     );
-    let defaults = [Profile::Cad, Profile::Lavoue2005].map(|profile| (entry.settings.defaults)(profile));
+    let defaults =
+        [Profile::Cad, Profile::Lavoue2005].map(|profile| (entry.settings.defaults)(profile));
     for key in defaults[0].keys() {
         let told = schema["properties"][key]["description"].as_str();
         unless(
@@ -192,7 +196,10 @@ fn description(entry: &PluginEntry) -> Vec<String> {
     for (defaults, profile) in defaults.into_iter().zip(["cad", "lavoue2005"]) {
         let in_force = Table::from_iter([(entry.name.to_owned(), Value::Table(defaults))]);
         if let Err(error) = (entry.systems)(&in_force) {
-            unless(false, format!("its defaults in {profile} are refused: {error}"));
+            unless(
+                false,
+                format!("its defaults in {profile} are refused: {error}"),
+            );
         }
     }
     breaks
@@ -214,17 +221,26 @@ fn meshes() -> Vec<(&'static str, Mesh)> {
     vec![
         (
             "one triangle",
-            weld(PolygonMesh::from_triangles(Format::Memory, one.to_vec(), &[[0, 1, 2]]), 0.0),
+            weld(
+                PolygonMesh::from_triangles(Format::Memory, one.to_vec(), &[[0, 1, 2]]),
+                0.0,
+            ),
         ),
         ("a cube", solid(cube())),
         ("a smooth cube", solid(shapes::smooth_cube(0.2, 4, 6))),
         ("a sphere", solid(shapes::icosphere(3))),
         ("a cone", solid(shapes::cone(1.0, 2.0, 32))),
-        ("a torus of 20,000 triangles", solid(shapes::torus(2.0, 0.5, 200, 50))),
+        (
+            "a torus of 20,000 triangles",
+            solid(shapes::torus(2.0, 0.5, 200, 50)),
+        ),
         ("a bracket", solid(shapes::bracket(5))),
         ("a shaft", solid(shapes::shaft(24, 4))),
         ("two loose cubes", solid(cube().and(&beside(3.0)))),
         ("three fins on one edge", weld(three_fins, 0.0)),
-        ("a small cube after large meshes", solid(cube().map(|p| p * 1e-3))),
+        (
+            "a small cube after large meshes",
+            solid(cube().map(|p| p * 1e-3)),
+        ),
     ]
 }

@@ -109,8 +109,14 @@ mod tests {
     #[test]
     fn answers_of_the_wrong_number_or_out_of_range_are_named() {
         let check = |answers: &[u32]| {
-            check_answers("classifier", "cluster", "sample", answers.iter().copied(), 3)
-                .map_err(|error| error.message)
+            check_answers(
+                "classifier",
+                "cluster",
+                "sample",
+                answers.iter().copied(),
+                3,
+            )
+            .map_err(|error| error.message)
         };
         assert_eq!(check(&[0, 2, 1]), Ok(()));
         assert_eq!(

@@ -178,7 +178,12 @@ pub fn resolve(
         .collect();
     let several_kinds: Vec<String> = known
         .iter()
-        .flat_map(|table| table.several_kinds.iter().map(|key| format!("{}.{key}", table.name)))
+        .flat_map(|table| {
+            table
+                .several_kinds
+                .iter()
+                .map(|key| format!("{}.{key}", table.name))
+        })
         .collect();
     overlay(&mut in_force, given, "", &several_kinds)?;
     for table in known {

@@ -47,8 +47,8 @@ pub use region_graph::{Link, Merged, RegionGraph};
 pub use score::{ScoreSettings, angle_score, curvature_score, facet_scores, vertex_scores};
 pub use sharp::{SharpSettings, dihedral_angles, sharp_edges, sharp_vertices};
 pub use spatial_order::SpatialOrder;
-pub use threshold::{Threshold, widest_gap};
 pub use tensor::{Bending, TensorForm, TensorPair, edge_tensor, face_tensors, vertex_tensors};
+pub use threshold::{Threshold, widest_gap};
 
 /// The built-in steps and their tables of settings.
 pub fn builtin_steps() -> BuiltinSteps {

@@ -65,9 +65,7 @@ impl Setup {
         let relative = below.last().unwrap_or(path);
         match self.rules.iter().find(|(files, _)| files.take(relative)) {
             None => Arc::clone(self),
-            Some((_, pipeline)) => {
-                Arc::new(Self::new(self.config.clone(), Arc::clone(pipeline)))
-            }
+            Some((_, pipeline)) => Arc::new(Self::new(self.config.clone(), Arc::clone(pipeline))),
         }
     }
 }

@@ -34,7 +34,10 @@ pub fn run(args: &CheckPluginArgs) -> Result<Outcome> {
     print(&if broken == 0 {
         "keeps the contract".to_owned()
     } else {
-        format!("breaks the contract in {}", counted(broken, "place", "places"))
+        format!(
+            "breaks the contract in {}",
+            counted(broken, "place", "places")
+        )
     })?;
     Ok(Outcome::of_failures(broken))
 }

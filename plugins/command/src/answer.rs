@@ -36,7 +36,10 @@ pub fn read_stream(
     loop {
         let start = more(8)?;
         if start[..4] != CONTINUES {
-            return Err(Fault::Garbage(format!("it has {} where a message begins", shown(&start))));
+            return Err(Fault::Garbage(format!(
+                "it has {} where a message begins",
+                shown(&start)
+            )));
         }
         stream.extend_from_slice(&start);
         let header_len = u32::from_le_bytes([start[4], start[5], start[6], start[7]]) as usize;
@@ -48,7 +51,8 @@ pub fn read_stream(
         }
         let header = more(header_len)?;
         let body_len = {
-            let message = root_as_message(&header).map_err(|error| Fault::Garbage(one_line(&error)))?;
+            let message =
+                root_as_message(&header).map_err(|error| Fault::Garbage(one_line(&error)))?;
             usize::try_from(message.bodyLength())
                 .map_err(|_| Fault::Garbage("a message of negative length".to_owned()))?
         };
@@ -124,15 +128,21 @@ fn add(batch: &RecordBatch, numbers: &mut Vec<u32>) -> Result<(), Fault> {
         }
         DataType::Int32 => {
             let values = column.as_primitive::<Int32Type>().values();
-            values.iter().for_each(|&v| put(u32::try_from(v).map_err(|_| v.to_string())));
+            values
+                .iter()
+                .for_each(|&v| put(u32::try_from(v).map_err(|_| v.to_string())));
         }
         DataType::UInt64 => {
             let values = column.as_primitive::<UInt64Type>().values();
-            values.iter().for_each(|&v| put(u32::try_from(v).map_err(|_| v.to_string())));
+            values
+                .iter()
+                .for_each(|&v| put(u32::try_from(v).map_err(|_| v.to_string())));
         }
         _ => {
             let values = column.as_primitive::<Int64Type>().values();
-            values.iter().for_each(|&v| put(u32::try_from(v).map_err(|_| v.to_string())));
+            values
+                .iter()
+                .for_each(|&v| put(u32::try_from(v).map_err(|_| v.to_string())));
         }
     }
     match wrong {
@@ -198,17 +208,33 @@ mod tests {
         let column = |values: Vec<i64>| stream("cluster", Arc::new(Int64Array::from(values)));
         assert_eq!(answer(&column(vec![0, 7])), Ok(vec![0, 7]));
         let value = "-1".to_owned();
-        assert_eq!(answer(&column(vec![0, -1])), Err(Fault::WrongValue { value, row: 1 }));
+        assert_eq!(
+            answer(&column(vec![0, -1])),
+            Err(Fault::WrongValue { value, row: 1 })
+        );
     }
 
     #[test]
     fn other_columns_gaps_and_greetings_are_named() {
         let real = stream("cluster", Arc::new(Float64Array::from(vec![1.0])));
-        assert!(answer(&real).unwrap_err().to_string().contains("`cluster`: Float64"));
+        assert!(
+            answer(&real)
+                .unwrap_err()
+                .to_string()
+                .contains("`cluster`: Float64")
+        );
         let other = stream("labels", Arc::new(UInt32Array::from(vec![1])));
-        assert!(answer(&other).unwrap_err().to_string().contains("`labels`: UInt32"));
+        assert!(
+            answer(&other)
+                .unwrap_err()
+                .to_string()
+                .contains("`labels`: UInt32")
+        );
         let gap = stream("cluster", Arc::new(UInt32Array::from(vec![Some(1), None])));
-        assert_eq!(answer(&gap).unwrap_err().to_string(), "answered with nothing in row 1");
+        assert_eq!(
+            answer(&gap).unwrap_err().to_string(),
+            "answered with nothing in row 1"
+        );
         let greeting = answer(b"Hello, I am a classifier").unwrap_err().to_string();
         assert!(greeting.contains("`Hello, I`"), "{greeting}");
     }

@@ -55,9 +55,11 @@ impl Fault {
             Self::Silent(_) => "it must flush its answer, and not wait for the end of its input; \
                                 or raise `timeout_s`"
                 .to_owned(),
-            Self::Garbage(_) | Self::TooLong(_) => "standard output is for one Arrow IPC stream a mesh \
+            Self::Garbage(_) | Self::TooLong(_) => {
+                "standard output is for one Arrow IPC stream a mesh \
                                                     and nothing else; print to standard error"
-                .to_owned(),
+                    .to_owned()
+            }
             Self::WrongColumns { wanted, .. } => {
                 format!("wants one column `{wanted}` of whole numbers")
             }

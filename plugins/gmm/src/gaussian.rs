@@ -77,10 +77,7 @@ impl Gaussian {
         [-1.0, 1.0].map(|side| {
             let mut half = Self {
                 share: self.share / 2.0,
-                mean: [
-                    self.mean[0] + side * out * x,
-                    self.mean[1] + side * out * y,
-                ],
+                mean: [self.mean[0] + side * out * x, self.mean[1] + side * out * y],
                 covariance: [
                     self.covariance[0] - lost * x * x,
                     self.covariance[1] - lost * x * y,
@@ -163,9 +160,8 @@ mod tests {
         for k in 0..2 {
             assert!(near((a.mean[k] + b.mean[k]) / 2.0, whole.mean[k]));
         }
-        let between = |j: usize, k: usize| {
-            (a.mean[j] - whole.mean[j]) * (a.mean[k] - whole.mean[k])
-        };
+        let between =
+            |j: usize, k: usize| (a.mean[j] - whole.mean[j]) * (a.mean[k] - whole.mean[k]);
         for (at, (j, k)) in [(0, 0), (0, 1), (1, 1)].into_iter().enumerate() {
             assert!(near(a.covariance[at] + between(j, k), whole.covariance[at]));
         }

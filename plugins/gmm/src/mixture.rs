@@ -179,7 +179,10 @@ mod tests {
     fn two_heaps_far_apart_are_two_components_at_their_means_with_their_variances() {
         let heavy: Vec<_> = two_heaps(100.0)
             .into_iter()
-            .map(|point| WeightedPoint { weight: 50.0, ..point })
+            .map(|point| WeightedPoint {
+                weight: 50.0,
+                ..point
+            })
             .collect();
         let found = Mixture::best(&heavy, 2, 1e-3, 100);
         assert_eq!(found.components.len(), 2);
@@ -207,7 +210,10 @@ mod tests {
                 heap.push([quantile(i), quantile(j)]);
             }
         }
-        assert_eq!(Mixture::best(&points(&heap), 8, 1e-3, 100).components.len(), 1);
+        assert_eq!(
+            Mixture::best(&points(&heap), 8, 1e-3, 100).components.len(),
+            1
+        );
     }
 
     proptest! {

@@ -72,10 +72,7 @@ impl Rectifier for GraphCutSettings {
         Ok(Labels {
             of_face,
             contours: Vec::new(),
-            counts: vec![
-                ("faces_moved", done.moved),
-                ("patches", done.patches),
-            ],
+            counts: vec![("faces_moved", done.moved), ("patches", done.patches)],
         })
     }
 }
@@ -106,7 +103,11 @@ fn costs(mesh: &LabelledMesh<'_>, settings: &GraphCutSettings) -> Vec<u64> {
                 .topology
                 .face_pair(edge)
                 .is_some_and(|[a, b]| mesh.labels[a as usize] != mesh.labels[b as usize]);
-            let kept = if is_boundary { settings.kept_share } else { 1.0 };
+            let kept = if is_boundary {
+                settings.kept_share
+            } else {
+                1.0
+            };
             let share = settings.length_share;
             let cost = kept * lengths[edge] * (share + (1.0 - share) * score);
             ((cost * steps).round() as u64).max(1)

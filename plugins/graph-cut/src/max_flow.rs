@@ -162,7 +162,9 @@ mod tests {
 
     fn cut_cost(arcs: &[(u32, u32, u64)], nodes: u32, on_source_side: impl Fn(u32) -> bool) -> u64 {
         let side = |node: u32| node == SOURCE || (node != SINK && on_source_side(node));
-        let sides = arcs.iter().map(|&(a, b, capacity)| (side(a), side(b), a, b, capacity));
+        let sides = arcs
+            .iter()
+            .map(|&(a, b, capacity)| (side(a), side(b), a, b, capacity));
         let _ = nodes;
         sides
             .filter(|&(from, to, a, b, _)| from != to && (from || (a != SOURCE && b != SINK)))

@@ -72,13 +72,21 @@ fn beyond_the_band_nothing_moves() {
 fn a_patch_of_one_strip_stays_as_it_is() {
     let sheet = Sheet::with_cheap_line(9, 1);
     let strip = |x: u32| u32::from(x >= 6) + u32::from(x >= 7);
-    let labels: Vec<_> = squares().flat_map(|(x, _)| [FaceLabel(strip(x)); 2]).collect();
+    let labels: Vec<_> = squares()
+        .flat_map(|(x, _)| [FaceLabel(strip(x)); 2])
+        .collect();
     let mut recut = labels.clone();
     sheet.recut(1, &mut recut);
     let of_strip = |labels: &[FaceLabel]| -> Vec<usize> {
-        (0..labels.len()).filter(|&f| labels[f] == labels[12]).collect()
+        (0..labels.len())
+            .filter(|&f| labels[f] == labels[12])
+            .collect()
     };
-    assert!(of_strip(&labels).iter().all(|f| of_strip(&recut).contains(f)));
+    assert!(
+        of_strip(&labels)
+            .iter()
+            .all(|f| of_strip(&recut).contains(f))
+    );
 }
 
 #[test]
@@ -87,7 +95,10 @@ fn one_patch_and_no_faces_have_nothing_to_cut() {
     let mut whole = vec![FaceLabel(7); 2 * (SIDE * SIDE) as usize];
     assert_eq!(sheet.recut(3, &mut whole), 1);
     assert!(whole.iter().all(|label| label.0 == 0));
-    assert_eq!(recut(&Topology::build(0, vec![]), &[], 3, &mut []).patches, 0);
+    assert_eq!(
+        recut(&Topology::build(0, vec![]), &[], 3, &mut []).patches,
+        0
+    );
 }
 
 proptest! {

@@ -17,7 +17,11 @@ pub fn smooth(heights: &[f64], deviation: f64) -> Vec<f64> {
         round.min(2 * count - 1 - round) as usize
     };
     let mut smoothed = vec![0.0; heights.len()];
-    for (bin, &height) in heights.iter().enumerate().filter(|(_, height)| **height > 0.0) {
+    for (bin, &height) in heights
+        .iter()
+        .enumerate()
+        .filter(|(_, height)| **height > 0.0)
+    {
         for (offset, weight) in (-reach..).zip(&kernel) {
             smoothed[mirrored(bin as i64 + offset)] += height * weight / whole;
         }
@@ -47,7 +51,11 @@ pub fn valleys(heights: &[f64], below_share: f64) -> Vec<usize> {
         match shallowest {
             Some(at) if depth(at) >= below_share => {
                 dips.remove(at);
-                let lower = if peaks[at] < peaks[at + 1] { at } else { at + 1 };
+                let lower = if peaks[at] < peaks[at + 1] {
+                    at
+                } else {
+                    at + 1
+                };
                 peaks.remove(lower);
             }
             _ => return dips,
@@ -99,7 +107,14 @@ mod tests {
 
     #[test]
     fn one_peak_slopes_and_nothing_have_no_valley() {
-        for heights in [&[][..], &[0.0], &[1.0], &[1.0, 2.0, 3.0], &[3.0, 1.0], &[2.0, 2.0]] {
+        for heights in [
+            &[][..],
+            &[0.0],
+            &[1.0],
+            &[1.0, 2.0, 3.0],
+            &[3.0, 1.0],
+            &[2.0, 2.0],
+        ] {
             assert!(valleys(heights, 1.0).is_empty(), "{heights:?}");
         }
     }

@@ -21,7 +21,8 @@ impl Density {
         let greatest = |k: usize| points.iter().map(|p| p[k]).fold(0.0, f64::max);
         let [width, height] = [greatest(0), greatest(1)];
         let cell = (bandwidth / CELLS_A_BANDWIDTH).max(width.max(height) / MOST_CELLS);
-        let [columns, rows] = [width, height].map(|length| (length / cell) as usize + 1);
+        let beyond = 4.0 * bandwidth;
+        let [columns, rows] = [width, height].map(|length| ((length + beyond) / cell) as usize + 1);
         let mut density = Self {
             cell,
             columns,
@@ -46,7 +47,9 @@ impl Density {
     /// The summit of each cell: where the steepest way up over the eight cells round each leads. Of equal ways
     /// the one to the lowest cell.
     pub fn summits(&self) -> Vec<usize> {
-        let mut up: Vec<usize> = (0..self.heights.len()).map(|cell| self.step(cell)).collect();
+        let mut up: Vec<usize> = (0..self.heights.len())
+            .map(|cell| self.step(cell))
+            .collect();
         for cell in 0..up.len() {
             let mut summit = cell;
             while up[summit] != summit {
@@ -83,8 +86,9 @@ impl Density {
         best.1
     }
 
-    /// Smooths along one direction: `count` cells, `stride` apart. What would fall off an end is mirrored back,
-    /// else the heap of the planes, which lies at zero, would have its summit beside it.
+    /// Smooths along one direction: `count` cells, `stride` apart. What would fall below zero is mirrored back, else
+    /// the heap of the planes, which lies at zero, would have its summit beside it. At the other end there is
+    /// room.
     fn blur(&mut self, stride: usize, count: usize, deviation: f64) {
         let reach = (4.0 * deviation).ceil() as usize;
         let kernel: Vec<f64> = (0..=reach)

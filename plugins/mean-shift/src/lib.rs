@@ -104,15 +104,24 @@ mod tests {
         // The sum of two equal Gaussians has one summit up to two deviations between them.
         for (apart, clusters) in [(1.6, 1), (2.6, 2)] {
             let apart = apart * settings().bandwidth;
-            let points: Vec<[f64; 2]> = (0..40).map(|i| [0.5, 1.0 + apart * f64::from(i % 2)]).collect();
+            let points: Vec<[f64; 2]> = (0..40)
+                .map(|i| [0.5, 1.0 + apart * f64::from(i % 2)])
+                .collect();
             let found = classify(&points, &settings());
-            assert_eq!(found.iter().map(|c| c.0 + 1).max(), Some(clusters), "{apart}");
+            assert_eq!(
+                found.iter().map(|c| c.0 + 1).max(),
+                Some(clusters),
+                "{apart}"
+            );
         }
     }
 
     #[test]
     fn no_samples_are_no_clusters_and_equal_ones_are_one() {
         assert!(classify(&[], &settings()).is_empty());
-        assert_eq!(classify(&[[1.0, 2.0]; 9], &settings()), [SampleCluster(0); 9]);
+        assert_eq!(
+            classify(&[[1.0, 2.0]; 9], &settings()),
+            [SampleCluster(0); 9]
+        );
     }
 }

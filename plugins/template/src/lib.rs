@@ -26,7 +26,11 @@ impl StepSettings for TemplateSettings {
     }
 
     fn check(&self) -> Result<(), OutOfRange> {
-        OutOfRange::unless(self.flat_below >= 0.0, "flat_below", "a curvature of 0 or more")
+        OutOfRange::unless(
+            self.flat_below >= 0.0,
+            "flat_below",
+            "a curvature of 0 or more",
+        )
     }
 }
 
@@ -62,7 +66,10 @@ mod tests {
     #[test]
     fn flat_and_round_samples_are_two_clusters() {
         let [flat, round] = [0, 1].map(SampleCluster);
-        assert_eq!(flat_or_not(&[0.0, 2.0, 0.05, 3.0], 0.1), [flat, round, flat, round]);
+        assert_eq!(
+            flat_or_not(&[0.0, 2.0, 0.05, 3.0], 0.1),
+            [flat, round, flat, round]
+        );
         assert_eq!(flat_or_not(&[2.0, 3.0], 0.1), [flat, flat]);
     }
 

@@ -81,9 +81,17 @@ fn answer(manner: &str, tables: &[RecordBatch]) -> Answer<()> {
     let (name, column) = match manner {
         "all" => {
             let labels = table.column_by_name("label").ok_or("no labels")?;
-            ("label", whole(labels.as_primitive::<UInt32Type>().values().to_vec()))
+            (
+                "label",
+                whole(labels.as_primitive::<UInt32Type>().values().to_vec()),
+            )
         }
-        "garbage" => return Ok(writeln!(stdout(), "Hello! I have classified {rows} samples.")?),
+        "garbage" => {
+            return Ok(writeln!(
+                stdout(),
+                "Hello! I have classified {rows} samples."
+            )?);
+        }
         "silent" => {
             sleep(Duration::from_secs(600));
             return Ok(());
@@ -101,7 +109,10 @@ fn answer(manner: &str, tables: &[RecordBatch]) -> Answer<()> {
         "long" => ("cluster", zeros(rows + 1)),
         "empty" => ("cluster", zeros(0)),
         "out-of-range" => ("cluster", whole((1..=rows).collect())),
-        "negative" => ("cluster", Arc::new(Int64Array::from(vec![-1; rows as usize])) as ArrayRef),
+        "negative" => (
+            "cluster",
+            Arc::new(Int64Array::from(vec![-1; rows as usize])) as ArrayRef,
+        ),
         "gaps" => {
             let gaps: UInt32Array = (0..rows).map(|row| (row > 0).then_some(0)).collect();
             ("cluster", Arc::new(gaps) as ArrayRef)
@@ -115,12 +126,27 @@ fn answer(manner: &str, tables: &[RecordBatch]) -> Answer<()> {
             // Other clusters each time.
             let now = std::time::SystemTime::now().duration_since(std::time::UNIX_EPOCH)?;
             let turn = now.subsec_nanos() / 1000;
-            ("cluster", whole((0..rows).map(|row| (row * 7 + turn) % rows.min(5)).collect()))
+            (
+                "cluster",
+                whole(
+                    (0..rows)
+                        .map(|row| (row * 7 + turn) % rows.min(5))
+                        .collect(),
+                ),
+            )
         }
         _ => {
             let curvature = table.column_by_name("k_max").ok_or("no curvature")?;
             let curvature = curvature.as_primitive::<Float64Type>().values();
-            ("cluster", whole(curvature.iter().map(|&k| u32::from(k > 0.1 && rows > 1)).collect()))
+            (
+                "cluster",
+                whole(
+                    curvature
+                        .iter()
+                        .map(|&k| u32::from(k > 0.1 && rows > 1))
+                        .collect(),
+                ),
+            )
         }
     };
     stdout().write_all(&stream(name, column)?)?;

@@ -76,7 +76,10 @@ impl CurvatureSamples<'_> {
     /// size.
     pub fn log_curvatures(&self, barely_curved: f64) -> Vec<[f64; 2]> {
         let log = |c: f64| (c / barely_curved).ln_1p();
-        self.samples.iter().map(|sample| sample.curvature.map(log)).collect()
+        self.samples
+            .iter()
+            .map(|sample| sample.curvature.map(log))
+            .collect()
     }
 
     /// Pairs of samples that touch along an edge that is not sharp, lower number first, sorted, each once.

@@ -53,14 +53,20 @@ impl ConfigFile {
             }
         };
         let numbered = elements.iter().enumerate();
-        numbered.map(|(at, element)| self.rule(at, element)).collect()
+        numbered
+            .map(|(at, element)| self.rule(at, element))
+            .collect()
     }
 
     fn rule(&self, at: usize, element: &Value) -> Result<Rule, ConfigError> {
         let table: RuleTable = self.table(Some(element), &format!("rules.{at}"))?;
         let files = Patterns::new(&table.files).map_err(|error| {
             let key = format!("rules.{at}.files");
-            self.locate(SettingsError::new(key, error, "as in `files = [\"castings/**\"]`"))
+            self.locate(SettingsError::new(
+                key,
+                error,
+                "as in `files = [\"castings/**\"]`",
+            ))
         })?;
         let mut settings = self.pipeline_settings();
         lay_over(&mut settings, &table.settings);
@@ -83,7 +89,10 @@ fn named(rule: &RuleTable, folder: &Path) -> Table {
     if !rule.profile.is_empty() {
         pipeline.insert("profile".to_owned(), Value::String(rule.profile.clone()));
     }
-    for (key, choice) in [("classifier", &rule.classifier), ("rectifier", &rule.rectifier)] {
+    for (key, choice) in [
+        ("classifier", &rule.classifier),
+        ("rectifier", &rule.rectifier),
+    ] {
         if *choice != PluginChoice::DEFAULT
             && let Ok(value) = Value::try_from(choice)
         {

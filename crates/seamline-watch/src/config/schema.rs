@@ -28,9 +28,12 @@ pub fn schema(pipeline_tables: &[SettingsTable]) -> Value {
     }
     let mut rule = table(&SettingsTable::of::<RuleTable>(), &mut definitions);
     rule["required"] = json!(["files"]);
-    let settings = pipeline_tables
-        .iter()
-        .map(|known| (known.name.to_owned(), json!({ "$ref": format!("#/properties/{}", known.name) })));
+    let settings = pipeline_tables.iter().map(|known| {
+        (
+            known.name.to_owned(),
+            json!({ "$ref": format!("#/properties/{}", known.name) }),
+        )
+    });
     rule["properties"]["settings"] = json!({
         "type": "object",
         "description": rule["properties"]["settings"]["description"],

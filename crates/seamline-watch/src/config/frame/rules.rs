@@ -11,7 +11,8 @@ use toml::Table;
 use crate::include;
 
 /// One `[[rules]]`: the way certain files are cut. The first rule that takes a file holds for it; files that none
-/// takes are cut as `[pipeline]` and the tables of the steps say.
+/// takes are cut as `[pipeline]` and the tables of the steps say. Rules are the daemon's: `segment` goes by
+/// `[pipeline]` alone.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct RuleTable {

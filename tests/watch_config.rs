@@ -190,7 +190,10 @@ fn what_is_wrong_is_wrong_by_the_schema_too() {
         ),
         ("[daemon]\ndrain_s = -1\n", "/daemon/drain_s"),
         ("[merge]\nthreshold = \"low\"\n", "/merge/threshold"),
-        ("[merge]\nthreshold = \"auto\"\nregions = -1\n", "/merge/regions"),
+        (
+            "[merge]\nthreshold = \"auto\"\nregions = -1\n",
+            "/merge/regions",
+        ),
         ("[[rules]]\nprofile = \"cad\"\n", "/rules/0"),
         (
             "[[rules]]\nfiles = [\"a\"]\n[rules.settings.merge]\nsmall = 1\n",

@@ -99,7 +99,7 @@ impl Density {
             round.min(2 * count as i64 - 1 - round) as usize
         };
         let mut line = vec![0.0; count];
-        for start in (0..self.heights.len()).filter(|cell| cell / stride % count == 0) {
+        for start in (0..self.heights.len()).filter(|cell| (cell / stride).is_multiple_of(count)) {
             line.fill(0.0);
             for at in 0..count {
                 let height = self.heights[start + at * stride];

@@ -108,10 +108,10 @@ impl Classifier for Moody {
 }
 
 impl Classifier for Panicky {
-    const SUMMARY: &'static str = "wants a first sample";
+    const SUMMARY: &'static str = "wants a second sample";
     fn classify(&self, samples: &CurvatureSamples<'_>) -> Result<Clusters, StepError> {
-        let first = samples.samples[0].vertex;
-        clusters(samples, |_| u32::from(first == 77))
+        let second = samples.samples[1].vertex;
+        clusters(samples, |_| u32::from(second == 77))
     }
 }
 

@@ -205,7 +205,7 @@ fn description(entry: &PluginEntry) -> Vec<String> {
     breaks
 }
 
-/// Shapes that hold what a plugin may meet: no samples at all, samples that are all equal, flat and round
+/// Shapes that hold what a plugin may meet: a single sample, samples that are all equal, flat and round
 /// ones, thousands of them, borders, loose parts, edges of three faces.
 fn meshes() -> Vec<(&'static str, Mesh)> {
     let solid = |shape: shapes::Shape| weld(shape.polygons(), 0.0);

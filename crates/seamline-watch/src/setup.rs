@@ -60,9 +60,9 @@ impl Setup {
 
     /// What a file is cut with: this, or the same with the pipeline of the rule that takes it.
     pub fn for_file(self: &Arc<Self>, path: &Path) -> Arc<Self> {
-        let roots = self.config.watch.iter();
-        let below = roots.filter_map(|watched| path.strip_prefix(&watched.root).ok());
-        let relative = below.last().unwrap_or(path);
+        let mut roots = self.config.watch.iter().rev();
+        let below = roots.find_map(|watched| path.strip_prefix(&watched.root).ok());
+        let relative = below.unwrap_or(path);
         match self.rules.iter().find(|(files, _)| files.take(relative)) {
             None => Arc::clone(self),
             Some((_, pipeline)) => Arc::new(Self::new(self.config.clone(), Arc::clone(pipeline))),

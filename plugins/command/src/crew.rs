@@ -43,9 +43,7 @@ impl Crew {
             || self.ask_new(tables, column, rows, until),
             |process| match self.ask_one(process, tables, column, rows, until) {
                 // It ended after its last answer, just before it could be asked again.
-                Err((fault, true)) if matches!(fault, Fault::Ended { .. }) => {
-                    self.ask_new(tables, column, rows, until)
-                }
+                Err((Fault::Ended { .. }, true)) => self.ask_new(tables, column, rows, until),
                 answer => answer.map_err(|(fault, _)| fault),
             },
         );

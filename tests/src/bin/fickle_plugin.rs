@@ -125,7 +125,7 @@ fn answer(manner: &str, tables: &[RecordBatch]) -> Answer<()> {
         "forgetful" => {
             // Other clusters each time.
             let now = std::time::SystemTime::now().duration_since(std::time::UNIX_EPOCH)?;
-            let turn = now.subsec_nanos() / 1000;
+            let turn = now.subsec_micros();
             (
                 "cluster",
                 whole(

@@ -190,6 +190,19 @@ fn what_is_wrong_is_wrong_by_the_schema_too() {
         ),
         ("[daemon]\ndrain_s = -1\n", "/daemon/drain_s"),
         ("[merge]\nthreshold = \"low\"\n", "/merge/threshold"),
+        (
+            "[merge]\nthreshold = \"auto\"\nregions = -1\n",
+            "/merge/regions",
+        ),
+        ("[[rules]]\nprofile = \"cad\"\n", "/rules/0"),
+        (
+            "[[rules]]\nfiles = [\"a\"]\n[rules.settings.merge]\nsmall = 1\n",
+            "/rules/0/settings/merge",
+        ),
+        (
+            "[pipeline]\nclassifier = { timeout_s = 3 }\n",
+            "/pipeline/classifier",
+        ),
         ("[outptu]\ndir = \"out\"\n", ""),
     ] {
         let faults = faults(text);
@@ -213,7 +226,7 @@ fn production_sets_every_key_that_is_not_a_step_s_own() {
     let tables = schema["properties"].as_object().expect("tables");
     for (table, of_table) in tables.iter().filter(|(name, _)| !is_a_step_s(name)) {
         let (keys, set) = match table.as_str() {
-            "watch" => (&of_table["items"]["properties"], &production["watch"][0]),
+            "watch" | "rules" => (&of_table["items"]["properties"], &production[table][0]),
             _ => (&of_table["properties"], &production[table]),
         };
         for key in keys.as_object().expect("keys").keys() {

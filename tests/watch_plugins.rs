@@ -7,29 +7,24 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread::{self, JoinHandle, sleep};
 use std::time::Duration;
 
-use bevy_ecs::prelude::*;
 use crossbeam_channel::{Sender, unbounded};
 use schemars::JsonSchema;
 use seamline_ecs::components::SampleCluster;
 use seamline_ecs::settings::{Profile, StepSettings};
-use seamline_ecs::{
-    ColumnMut, InputMesh, Pipeline, Registry, StagePlugin, StageSystems, SwappableStage, tables,
-};
+use seamline_ecs::{Classifier, Clusters, CurvatureSamples, Pipeline, Registry, StepError, tables};
 use seamline_segment::builtin_steps;
 use seamline_tests::daemon::{Home, LIMIT, Metrics, cuboid, cuboids, get, wait_within};
 use seamline_watch::{Config, ConfigFile, Order, RunOptions, Setup, Summary, run};
 use serde::{Deserialize, Serialize};
 
-/// A classifier that panics on a mesh of four faces, and hangs on one of eight.
-struct Unruly;
-
 /// A mesh of eight faces hangs while this holds.
 static HANGS: AtomicBool = AtomicBool::new(true);
 
+/// A classifier that panics on a mesh of four faces, and hangs on one of eight.
 #[derive(Clone, Serialize, Deserialize, JsonSchema)]
-struct UnrulySettings {}
+struct Unruly {}
 
-impl StepSettings for UnrulySettings {
+impl StepSettings for Unruly {
     const TABLE: &'static str = "unruly";
 
     fn defaults(_: Profile) -> Self {
@@ -37,25 +32,23 @@ impl StepSettings for UnrulySettings {
     }
 }
 
-impl StagePlugin for Unruly {
-    type Settings = UnrulySettings;
-    const STAGE: SwappableStage = SwappableStage::Classify;
+impl Classifier for Unruly {
     const SUMMARY: &'static str = "one cluster for all, where it does not panic or hang";
 
-    fn systems(_: UnrulySettings) -> StageSystems {
-        let classify = |mesh: Res<InputMesh>, mut clusters: ColumnMut<SampleCluster>| {
-            match mesh.0.polygons.face_count() {
-                4 => panic!("four faces\nare too few"),
-                8 => {
-                    while HANGS.load(Ordering::Relaxed) {
-                        sleep(Duration::from_millis(10));
-                    }
+    fn classify(&self, samples: &CurvatureSamples<'_>) -> Result<Clusters, StepError> {
+        match samples.mesh.polygons.face_count() {
+            4 => panic!("four faces\nare too few"),
+            8 => {
+                while HANGS.load(Ordering::Relaxed) {
+                    sleep(Duration::from_millis(10));
                 }
-                _ => {}
             }
-            clusters.fill(SampleCluster(0));
-        };
-        classify.into_configs()
+            _ => {}
+        }
+        Ok(Clusters {
+            of_sample: vec![SampleCluster(0); samples.samples.len()],
+            ..Clusters::default()
+        })
     }
 }
 
@@ -95,7 +88,7 @@ struct Running {
 }
 
 fn setup(config: &Path) -> Setup {
-    let registry = Registry::default().with::<Unruly>();
+    let registry = Registry::default().with_classifier::<Unruly>();
     let tables = tables(&builtin_steps(), &registry);
     let file = ConfigFile::read(config, &tables).unwrap();
     let pipeline = Pipeline::assemble(&builtin_steps(), &registry, &file.pipeline_settings());

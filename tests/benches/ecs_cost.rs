@@ -239,5 +239,34 @@ fn curvature_stage(c: &mut Criterion) {
     group.finish();
 }
 
-criterion_group!(benches, curvature_stage, whole_pipeline);
+/// A plugin behind its contract (lent columns, answer checked and written down) against its kernel called on the
+/// same features.
+fn classify_stage(c: &mut Criterion) {
+    let mesh = mesh();
+    let mut worker = Worker::new(pipeline(&[]));
+    let mut bare = Bare::default();
+    bare.prepare(&mesh);
+    bare.curvature();
+    let settings = KMeansSettings::defaults(Profile::Cad);
+
+    let mut group = c.benchmark_group("classify stage");
+    group
+        .sample_size(10)
+        .measurement_time(Duration::from_secs(10));
+    group.bench_function("plugin in the pipeline", |b| {
+        b.iter_custom(|rounds| {
+            let seconds = (0..rounds).map(|_| {
+                let cut = worker.segment(Arc::clone(&mesh)).expect("it is cut");
+                cut.stages[Stage::Classify as usize].seconds
+            });
+            Duration::from_secs_f64(seconds.sum())
+        });
+    });
+    group.bench_function("its kernel", |b| {
+        b.iter(|| black_box(classify(&bare.features, &settings)))
+    });
+    group.finish();
+}
+
+criterion_group!(benches, curvature_stage, classify_stage, whole_pipeline);
 criterion_main!(benches);

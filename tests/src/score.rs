@@ -12,6 +12,8 @@ pub struct Agreement {
     pub ari: f64,
     /// F1 of boundary edges, by length; an edge counts only if it is the very same edge.
     pub boundary_f1: f64,
+    /// Share of the true patches that are found with an area in common of .95 of the area of both, or more.
+    pub exact: f64,
 }
 
 /// Compares a labelling with the truth, one label a triangle each.
@@ -19,19 +21,41 @@ pub fn agreement(mesh: &Mesh, truth: &[u32], found: &[u32]) -> Agreement {
     Agreement {
         ari: adjusted_rand_index(mesh, truth, found),
         boundary_f1: boundary_f1(mesh, truth, found),
+        exact: exact(mesh, truth, found),
     }
 }
 
-fn adjusted_rand_index(mesh: &Mesh, truth: &[u32], found: &[u32]) -> f64 {
-    let area = |corners: &[u32; 3]| {
-        let [a, b, c] = corners.map(|v| mesh.positions()[v as usize]);
-        (b - a).cross(c - a).length()
-    };
-    let whole: f64 = mesh.triangles.iter().map(area).sum();
+fn area(mesh: &Mesh, corners: &[u32; 3]) -> f64 {
+    let [a, b, c] = corners.map(|v| mesh.positions()[v as usize]);
+    (b - a).cross(c - a).length() / 2.0
+}
+
+fn exact(mesh: &Mesh, truth: &[u32], found: &[u32]) -> f64 {
     let mut both: BTreeMap<(u32, u32), f64> = BTreeMap::new();
     let (mut of_truth, mut of_found) = (BTreeMap::new(), BTreeMap::new());
     for (corners, (&t, &f)) in mesh.triangles.iter().zip(truth.iter().zip(found)) {
-        let share = area(corners) / whole;
+        let area = area(mesh, corners);
+        *both.entry((t, f)).or_default() += area;
+        *of_truth.entry(t).or_insert(0.0) += area;
+        *of_found.entry(f).or_insert(0.0) += area;
+    }
+    // No two patches can have so much in common with the same one.
+    let is_exact = |&(&(t, f), &common): &(&(u32, u32), &f64)| {
+        common >= 0.95 * (of_truth[&t] + of_found[&f] - common)
+    };
+    both.iter().filter(is_exact).count() as f64 / of_truth.len() as f64
+}
+
+fn adjusted_rand_index(mesh: &Mesh, truth: &[u32], found: &[u32]) -> f64 {
+    let whole: f64 = mesh
+        .triangles
+        .iter()
+        .map(|corners| area(mesh, corners))
+        .sum();
+    let mut both: BTreeMap<(u32, u32), f64> = BTreeMap::new();
+    let (mut of_truth, mut of_found) = (BTreeMap::new(), BTreeMap::new());
+    for (corners, (&t, &f)) in mesh.triangles.iter().zip(truth.iter().zip(found)) {
+        let share = area(mesh, corners) / whole;
         *both.entry((t, f)).or_default() += share;
         *of_truth.entry(t).or_insert(0.0) += share;
         *of_found.entry(f).or_insert(0.0) += share;
@@ -87,8 +111,16 @@ mod tests {
             .map(|&face| cube.patches[face as usize])
             .collect();
         let same = agreement(&mesh, &truth, &truth);
-        assert!((same.ari - 1.0).abs() < 1e-12 && same.boundary_f1 == 1.0);
+        assert!((same.ari - 1.0).abs() < 1e-12 && same.boundary_f1 == 1.0 && same.exact == 1.0);
         let one = agreement(&mesh, &truth, &vec![0; truth.len()]);
-        assert!(one.ari.abs() < 1e-12 && one.boundary_f1 == 0.0);
+        assert!(one.ari.abs() < 1e-12 && one.boundary_f1 == 0.0 && one.exact == 0.0);
+
+        let mut joined = truth.clone();
+        joined
+            .iter_mut()
+            .filter(|label| **label == 1)
+            .for_each(|label| *label = 0);
+        let four_of_six = agreement(&mesh, &truth, &joined);
+        assert!((four_of_six.exact - 4.0 / 6.0).abs() < 1e-12);
     }
 }

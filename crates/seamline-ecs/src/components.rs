@@ -125,12 +125,15 @@ impl SampleFeature {
 /// Sample: what it was taken from.
 #[derive(Component, Clone, Copy, Debug, Default)]
 pub struct Sample {
-    /// Area of the facet; zero for a vertex.
+    /// Area of the facet; zero for a vertex ([`crate::CurvatureSamples::areas`]).
     pub area: f64,
     /// `(|k_min|, k_max)` after filtering.
     pub curvature: [f64; 2],
     /// Mean curvature tensor of the facet, sharp edges left out; zero for a vertex.
     pub tensor: SymmetricTensor,
+    /// Unit direction of least curvature: along a cylinder's axis. Any tangent direction where both curvatures
+    /// are equal.
+    pub d_min: [f32; 3],
     /// The vertex it lies on, [`NONE`] for a facet.
     pub vertex: u32,
 }

@@ -11,9 +11,10 @@
 
 mod column;
 pub mod components;
+pub mod contract;
 mod job;
 mod pipeline;
-mod plugin;
+pub mod plugin;
 pub mod results;
 pub mod rows;
 pub mod settings;
@@ -23,7 +24,11 @@ mod worker;
 pub use column::{Column, ColumnMut};
 pub use job::{Counts, InputMesh, JobFailure, MeshScale, MeshTopology};
 pub use pipeline::{BuiltinSteps, InstallStep, Pipeline, PipelineSettings, tables};
-pub use plugin::{PluginEntry, Registry, StagePlugin, SwappableStage};
+pub use plugin::{
+    Classifier, Clusters, CommandSettings, CurvatureSamples, LabelledMesh, Labels, MakeSystems,
+    PluginChoice, PluginEntry, Rectifier, Registry, SwappableStage, classifier_systems,
+    rectifier_systems,
+};
 pub use results::Segmentation;
 pub use stage::{Stage, StageSystems, StepError, fallible};
 pub use worker::{Progress, StageError, Worker};

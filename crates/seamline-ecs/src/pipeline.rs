@@ -7,7 +7,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use toml::{Table, Value};
 
-use crate::plugin::{PluginEntry, Registry, SwappableStage};
+use crate::plugin::{MakeSystems, PluginChoice, Registry, SwappableStage};
 use crate::settings::{self, OutOfRange, Profile, SettingsError, SettingsTable, StepSettings};
 
 /// Puts systems into a schedule and their settings into its world.
@@ -19,22 +19,24 @@ pub type InstallStep = Arc<dyn Fn(&mut World, &mut Schedule) + Send + Sync>;
 pub struct PipelineSettings {
     /// The set of defaults: `cad` or `lavoue2005`.
     pub profile: Profile,
-    /// The plugin that gives each curvature sample a cluster; empty: the first registered.
-    pub classifier: String,
-    /// The plugin that cleans the boundaries, or `none`; empty: the first registered.
-    pub rectifier: String,
+    /// The plugin that gives each curvature sample a cluster; empty: the first registered. A program of your
+    /// own: `{ command = ["python3", "my_classifier.py"] }`.
+    pub classifier: PluginChoice,
+    /// The plugin that cleans the boundaries, or `none`; empty: the first registered. Or a program, as above.
+    pub rectifier: PluginChoice,
     /// Threads used on one mesh; 0: all there are. Results do not depend on it.
     pub threads: usize,
 }
 
 impl StepSettings for PipelineSettings {
     const TABLE: &'static str = "pipeline";
+    const SEVERAL_KINDS: &'static [&'static str] = &["classifier", "rectifier"];
 
     fn defaults(profile: Profile) -> Self {
         Self {
             profile,
-            classifier: String::new(),
-            rectifier: String::new(),
+            classifier: PluginChoice::DEFAULT,
+            rectifier: PluginChoice::DEFAULT,
             threads: 0,
         }
     }
@@ -76,21 +78,27 @@ impl Pipeline {
         let mut in_force = settings::resolve(&tables(builtin, registry), chosen_profile, given)?;
         let mut pipeline: PipelineSettings = settings::read(&in_force)?;
 
-        let classifier = choose(registry, SwappableStage::Classify, &mut pipeline.classifier)?;
-        let rectifier = choose(registry, SwappableStage::Rectify, &mut pipeline.rectifier)?;
-        let chosen: Vec<_> = classifier.into_iter().chain(rectifier).collect();
-
         let mut install = vec![(builtin.install)(&in_force)?];
-        for entry in &chosen {
-            install.push(install_plugin(entry, &in_force)?);
+        let PipelineSettings {
+            classifier,
+            rectifier,
+            ..
+        } = &mut pipeline;
+        for (stage, choice) in [
+            (SwappableStage::Classify, classifier),
+            (SwappableStage::Rectify, rectifier),
+        ] {
+            let systems = choose(registry, stage, choice, &in_force)?;
+            install.extend(systems.map(|make| install_plugin(stage, make)));
         }
 
-        for idle in registry
-            .entries()
-            .iter()
-            .filter(|e| chosen.iter().all(|c| c.name != e.name))
-        {
-            in_force.remove(idle.name);
+        let chosen = [&pipeline.classifier, &pipeline.rectifier];
+        for idle in registry.entries() {
+            let is_chosen =
+                |choice: &&PluginChoice| **choice == PluginChoice::Named(idle.name.to_owned());
+            if !chosen.iter().any(is_chosen) {
+                in_force.remove(idle.name);
+            }
         }
         let threads = pipeline.threads;
         let mut said = Table::try_from(pipeline).expect("settings are tables of plain values");
@@ -146,11 +154,17 @@ fn profile(given: &Table) -> Result<Profile, SettingsError> {
     })
 }
 
-fn choose<'a>(
-    registry: &'a Registry,
+/// The systems of the plugin chosen, if there is one, and the name it has put in the choice.
+fn choose(
+    registry: &Registry,
     stage: SwappableStage,
-    name: &mut String,
-) -> Result<Option<&'a PluginEntry>, SettingsError> {
+    choice: &mut PluginChoice,
+    in_force: &Table,
+) -> Result<Option<MakeSystems>, SettingsError> {
+    let name = match choice {
+        PluginChoice::Command(command) => return registry.outside(stage, command).map(Some),
+        PluginChoice::Named(name) => name,
+    };
     if stage == SwappableStage::Rectify && name == "none" {
         return Ok(None);
     }
@@ -159,13 +173,11 @@ fn choose<'a>(
         name => Some(registry.find(stage, name)?),
     };
     *name = entry.map_or("none", |entry| entry.name).to_owned();
-    Ok(entry)
+    entry.map(|entry| (entry.systems)(in_force)).transpose()
 }
 
-fn install_plugin(entry: &PluginEntry, in_force: &Table) -> Result<InstallStep, SettingsError> {
-    let make = (entry.systems)(in_force)?;
-    let stage = entry.stage.stage();
-    Ok(Arc::new(move |_: &mut World, schedule: &mut Schedule| {
-        schedule.add_systems(make().in_set(stage));
-    }))
+fn install_plugin(stage: SwappableStage, make: MakeSystems) -> InstallStep {
+    Arc::new(move |_: &mut World, schedule: &mut Schedule| {
+        schedule.add_systems(make().in_set(stage.stage()));
+    })
 }

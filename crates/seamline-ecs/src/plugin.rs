@@ -1,31 +1,63 @@
-//! What a plugin is: a name, the stage it fills, its settings, and the systems that do the work.
+//! The contract of plugins.
+//!
+//! A plugin fills one of two stages. A [`Classifier`] is shown samples of curvature and gives each a cluster; a
+//! [`Rectifier`] is shown a labelled mesh and gives each face a label. Both are values of a settings struct
+//! with one method: what a plugin needs it is lent as slices, what it has found it returns. It never holds
+//! the world, so that it cannot add rows, keep something of one mesh for the next, or write what is not its
+//! own.
+//!
+//! | | classifier | rectifier |
+//! |---|---|---|
+//! | stage | [`SwappableStage::Classify`] | [`SwappableStage::Rectify`] |
+//! | reads | [`CurvatureSamples`] | [`LabelledMesh`] |
+//! | writes | a cluster for every sample ([`Clusters`]) | a label for every face ([`Labels`]) |
+//! | range | clusters below the number of samples | labels below the number of faces |
+//!
+//! **Name and settings.** The settings struct is [`StepSettings`]: its table of the configuration bears the
+//! plugin's name, every key is documented and has a default in each profile, unknown keys are refused
+//! (`#[serde(deny_unknown_fields)]`), and `schemars` makes the schema of it.
+//!
+//! **Determinism.** The same columns and settings give the same answer, on any number of threads: sums in a
+//! fixed order, no clock, no address, no order of a hash map, a seed that is a setting.
+//!
+//! **Errors.** A plugin that cannot do its work on this mesh returns a [`StepError`] with a hint. An answer of
+//! the wrong length or out of range is one too, made here and named. It ends the job, not the worker; in
+//! the daemon so do a panic and a plugin that does not come back (`limits.job_timeout_s`).
+//!
+//! **Degenerate meshes.** There may be no samples at all (every vertex of a cube is sharp), all may be equal,
+//! and areas may be zero. Columns hold finite numbers only.
+//!
+//! `seamline plugins check NAME` puts a plugin to the test of all this ([`crate::contract`]).
 
-use std::sync::Arc;
+mod choice;
+mod classifier;
+mod rectifier;
+mod registry;
 
 use serde::Serialize;
-use toml::Table;
 
-use crate::settings::{self, SettingsError, SettingsTable, StepSettings};
-use crate::stage::{Stage, StageSystems};
+use crate::settings::StepSettings;
+use crate::stage::{Stage, StepError};
+
+pub use choice::{CommandSettings, PluginChoice};
+pub use classifier::{Classifier, Clusters, CurvatureSamples, classifier_systems};
+pub use rectifier::{LabelledMesh, Labels, Rectifier, rectifier_systems};
+pub use registry::{MakeSystems, OutsideSystems, PluginEntry, Registry};
 
 /// A stage that plugins fill.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum SwappableStage {
-    /// Gives every sample a cluster.
-    ///
-    /// Reads `Column<SampleFeature>` and `Column<Sample>`; writes `ColumnMut<SampleCluster>`, every row a
-    /// cluster number below the number of samples.
+    /// Gives every sample a cluster: [`Classifier`].
     Classify,
-    /// Gives every face its final patch.
-    ///
-    /// Reads `Res<MeshTopology>`, `Column<BoundaryScore>`, `Column<SharpEdge>`, `Column<Position>`; reads
-    /// and writes `ColumnMut<FaceLabel>`, every row a label below the number of faces, and may tell what it
-    /// did to each edge in `ColumnMut<ContourState>`.
+    /// Gives every face its final patch: [`Rectifier`].
     Rectify,
 }
 
 impl SwappableStage {
+    /// Both of them, in the order a mesh meets them.
+    pub const ALL: [Self; 2] = [Self::Classify, Self::Rectify];
+
     /// Where it stands among all stages.
     pub fn stage(self) -> Stage {
         match self {
@@ -43,89 +75,57 @@ impl SwappableStage {
     }
 }
 
-/// A plugin: one way to fill one stage.
-///
-/// Its systems take columns and resources, never `Commands` or `&mut World`: rows are the pipeline's. The
-/// same columns must give the same answer, on any number of threads. A system that cannot do its work on
-/// a mesh returns a [`crate::StepError`] (wrap it in [`crate::fallible`]): that ends the job, not the
-/// worker.
-pub trait StagePlugin {
-    /// Its table of the configuration, which bears the plugin's name.
-    type Settings: StepSettings;
-    /// The stage it fills.
-    const STAGE: SwappableStage;
-    /// What it does, in one line.
-    const SUMMARY: &'static str;
-
-    /// The systems that do the work, in order.
-    fn systems(settings: Self::Settings) -> StageSystems;
-}
-
-/// Makes a plugin's systems anew, for each worker.
-pub type MakeSystems = Arc<dyn Fn() -> StageSystems + Send + Sync>;
-
-/// A registered plugin.
-#[derive(Clone, Copy)]
-pub struct PluginEntry {
-    /// The stage it fills.
-    pub stage: SwappableStage,
-    /// The name it is chosen by.
-    pub name: &'static str,
-    /// What it does, in one line.
-    pub summary: &'static str,
-    /// Its settings.
-    pub settings: SettingsTable,
-    /// Its systems under the settings in force.
-    pub systems: fn(&Table) -> Result<MakeSystems, SettingsError>,
-}
-
-impl PluginEntry {
-    /// The entry of `P`.
-    pub fn of<P: StagePlugin>() -> Self {
-        Self {
-            stage: P::STAGE,
-            name: P::Settings::TABLE,
-            summary: P::SUMMARY,
-            settings: SettingsTable::of::<P::Settings>(),
-            systems: |in_force| {
-                let settings: P::Settings = settings::read(in_force)?;
-                Ok(Arc::new(move || P::systems(settings.clone())))
-            },
-        }
+/// Is there one answer for each question, and each below the number of questions?
+fn check_answers(
+    who: &str,
+    what: &str,
+    of_what: &str,
+    answers: impl ExactSizeIterator<Item = u32>,
+    wanted: usize,
+) -> Result<(), StepError> {
+    let given = answers.len();
+    if given != wanted {
+        return Err(StepError::new(
+            format!("the {who} gave {given} {what}s for {wanted} {of_what}s"),
+            format!("one {what} for every {of_what}, in the same order"),
+        ));
+    }
+    match answers
+        .enumerate()
+        .find(|&(_, answer)| answer as usize >= wanted)
+    {
+        None => Ok(()),
+        Some((at, answer)) => Err(StepError::new(
+            format!("the {who} gave {of_what} {at} the {what} {answer}"),
+            format!("{what}s are below the number of {of_what}s, {wanted}"),
+        )),
     }
 }
 
-/// All plugins there are. The first of a stage is the one taken where none is named.
-#[derive(Clone, Default)]
-pub struct Registry {
-    entries: Vec<PluginEntry>,
-}
+#[cfg(test)]
+mod tests {
+    use super::*;
 
-impl Registry {
-    /// Adds `P`.
-    pub fn with<P: StagePlugin>(mut self) -> Self {
-        self.entries.push(PluginEntry::of::<P>());
-        self
-    }
-
-    /// All entries, in the order they were added.
-    pub fn entries(&self) -> &[PluginEntry] {
-        &self.entries
-    }
-
-    /// The plugin of a stage that is taken where none is named.
-    pub fn default_of(&self, stage: SwappableStage) -> Option<&PluginEntry> {
-        self.entries.iter().find(|entry| entry.stage == stage)
-    }
-
-    /// The plugin of a stage by name. `none` and the empty text are the caller's matter.
-    pub fn find(&self, stage: SwappableStage, name: &str) -> Result<&PluginEntry, SettingsError> {
-        let of_stage = || self.entries.iter().filter(|entry| entry.stage == stage);
-        of_stage().find(|entry| entry.name == name).ok_or_else(|| {
-            let key = format!("pipeline.{}", stage.key());
-            let nothing = (stage == SwappableStage::Rectify).then_some("none");
-            let known = of_stage().map(|entry| entry.name).chain(nothing);
-            SettingsError::unknown(key, stage.key(), name, known)
-        })
+    #[test]
+    fn answers_of_the_wrong_number_or_out_of_range_are_named() {
+        let check = |answers: &[u32]| {
+            check_answers(
+                "classifier",
+                "cluster",
+                "sample",
+                answers.iter().copied(),
+                3,
+            )
+            .map_err(|error| error.message)
+        };
+        assert_eq!(check(&[0, 2, 1]), Ok(()));
+        assert_eq!(
+            check(&[0, 2]).unwrap_err(),
+            "the classifier gave 2 clusters for 3 samples"
+        );
+        assert_eq!(
+            check(&[0, 3, 7]).unwrap_err(),
+            "the classifier gave sample 1 the cluster 3"
+        );
     }
 }

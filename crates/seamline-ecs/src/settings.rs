@@ -29,6 +29,9 @@ pub trait StepSettings:
 {
     /// The name of the table.
     const TABLE: &'static str;
+    /// The keys whose value may be of another kind than its default, as a number or a word. What such a value
+    /// may be is told by the field's type.
+    const SEVERAL_KINDS: &'static [&'static str] = &[];
 
     /// What holds where nothing is given.
     fn defaults(profile: Profile) -> Self;
@@ -115,6 +118,7 @@ pub struct SettingsTable {
     pub defaults: fn(Profile) -> Table,
     /// Its JSON schema.
     pub schema: fn() -> Schema,
+    several_kinds: &'static [&'static str],
     check: fn(&Table) -> Result<(), SettingsError>,
 }
 
@@ -127,6 +131,7 @@ impl SettingsTable {
                 Table::try_from(S::defaults(profile)).expect("settings are tables of plain values")
             },
             schema: || schema_for!(S),
+            several_kinds: S::SEVERAL_KINDS,
             check: |in_force| read::<S>(in_force).map(|_| ()),
         }
     }
@@ -171,7 +176,16 @@ pub fn resolve(
         .iter()
         .map(|t| (t.name.to_owned(), Value::Table((t.defaults)(profile))))
         .collect();
-    overlay(&mut in_force, given, "")?;
+    let several_kinds: Vec<String> = known
+        .iter()
+        .flat_map(|table| {
+            table
+                .several_kinds
+                .iter()
+                .map(|key| format!("{}.{key}", table.name))
+        })
+        .collect();
+    overlay(&mut in_force, given, "", &several_kinds)?;
     for table in known {
         (table.check)(&in_force).map_err(|error| blame(table, profile, given, error))?;
     }
@@ -207,7 +221,12 @@ fn blame(
         .unwrap_or(error)
 }
 
-fn overlay(base: &mut Table, given: &Table, prefix: &str) -> Result<(), SettingsError> {
+fn overlay(
+    base: &mut Table,
+    given: &Table,
+    prefix: &str,
+    several_kinds: &[String],
+) -> Result<(), SettingsError> {
     for (key, value) in given {
         let dotted = format!("{prefix}{key}");
         let Some(known) = base.get_mut(key) else {
@@ -220,9 +239,6 @@ fn overlay(base: &mut Table, given: &Table, prefix: &str) -> Result<(), Settings
             ));
         };
         match (known, value) {
-            (Value::Table(known), Value::Table(value)) => {
-                overlay(known, value, &format!("{dotted}."))?
-            }
             (_, Value::Float(number)) if !number.is_finite() => {
                 return Err(SettingsError::new(
                     dotted,
@@ -232,6 +248,10 @@ fn overlay(base: &mut Table, given: &Table, prefix: &str) -> Result<(), Settings
             }
             (known @ Value::Float(_), Value::Integer(whole)) => {
                 *known = Value::Float(*whole as f64)
+            }
+            (known, value) if several_kinds.contains(&dotted) => *known = value.clone(),
+            (Value::Table(known), Value::Table(value)) => {
+                overlay(known, value, &format!("{dotted}."), several_kinds)?
             }
             (known, value) if known.same_type(value) => *known = value.clone(),
             (known, value) => {
@@ -255,6 +275,18 @@ fn kind(value: &Value) -> &'static str {
         Value::Datetime(_) => "a date",
         Value::Array(_) => "a list",
         Value::Table(_) => "a table",
+    }
+}
+
+/// Lays tables over tables: what `given` has replaces what `base` has, key by key.
+pub fn lay_over(base: &mut Table, given: &Table) {
+    for (key, value) in given {
+        match (base.get_mut(key), value) {
+            (Some(Value::Table(base)), Value::Table(given)) => lay_over(base, given),
+            _ => {
+                base.insert(key.clone(), value.clone());
+            }
+        }
     }
 }
 

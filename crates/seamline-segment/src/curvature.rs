@@ -160,12 +160,17 @@ fn gather_samples(world: &mut World) {
         .iter()
         .map(|s| s.0)
         .collect();
+    let directions: Vec<[f32; 3]> = rows::column_mut::<VertexCurvature>(world)
+        .iter()
+        .map(|curvature| curvature.d_min.as_vec3().to_array())
+        .collect();
     let samples: Vec<Sample> = rows::column_mut::<SmoothCurvature>(world)
         .iter()
         .enumerate()
         .filter(|&(v, _)| used[v] && !sharp[v])
         .map(|(v, k)| Sample {
             curvature: k.0.feature(),
+            d_min: directions[v],
             vertex: v as u32,
             ..Sample::default()
         })

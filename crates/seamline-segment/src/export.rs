@@ -5,9 +5,7 @@ use rayon::prelude::*;
 use seamline_ecs::components::*;
 use seamline_ecs::results::{Boundary, PatchReport, PatchSummary, Segmentation, VertexQuantities};
 use seamline_ecs::rows::{self, Patches};
-use seamline_ecs::{
-    Column, ColumnMut, Counts, InputMesh, MeshScale, Stage, StageSystems, StepError, fallible,
-};
+use seamline_ecs::{Column, ColumnMut, Counts, InputMesh, MeshScale, Stage, StageSystems};
 use seamline_mesh::{EdgeKind, Findings, Mesh, Topology, examine};
 
 use crate::boundaries::chains;
@@ -19,23 +17,7 @@ use crate::surfaces::{SurfaceSettings, patch_surfaces};
 use crate::tensor::{Bending, BendingColumns, TensorForm, face_tensors, over, vertex_tensors};
 
 pub(crate) fn systems() -> StageSystems {
-    (fallible(check_labels), number.pipe(collect).pipe(make_rows))
-        .chain()
-        .in_set(Stage::Export)
-}
-
-fn check_labels(labels: Column<FaceLabel>) -> Result<(), StepError> {
-    let labels = &labels[..];
-    match labels
-        .iter()
-        .position(|label| label.0 as usize >= labels.len())
-    {
-        None => Ok(()),
-        Some(face) => Err(StepError::new(
-            format!("face {face} was given the label {}", labels[face].0),
-            format!("labels are below the number of faces, {}", labels.len()),
-        )),
-    }
+    number.pipe(collect).pipe(make_rows).in_set(Stage::Export)
 }
 
 fn number(

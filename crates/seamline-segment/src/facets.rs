@@ -117,6 +117,7 @@ pub fn find_facets(bending: &Bending, flat: f64) -> Facets {
             area: *area,
             curvature: frame.k.feature(),
             tensor,
+            d_min: frame.d_min.as_vec3().to_array(),
             vertex: NONE,
         }
     };

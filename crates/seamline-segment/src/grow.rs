@@ -3,22 +3,18 @@
 use bevy_ecs::prelude::*;
 use seamline_ecs::components::*;
 use seamline_ecs::rows::{self, Regions};
-use seamline_ecs::{Column, Counts, MeshTopology, Stage, StageSystems, StepError, fallible};
+use seamline_ecs::{Column, Counts, MeshTopology, Stage, StageSystems};
 use seamline_mesh::{Sets, Topology};
 
 use crate::rounding::to_eight_digits;
 use crate::surfaces::{Settled, regions_of};
 
 pub(crate) fn vertex_systems() -> StageSystems {
-    (fallible(check_clusters), grow_from_vertices.pipe(make_rows))
-        .chain()
-        .in_set(Stage::Grow)
+    grow_from_vertices.pipe(make_rows).in_set(Stage::Grow)
 }
 
 pub(crate) fn facet_systems() -> StageSystems {
-    (fallible(check_clusters), grow_from_facets.pipe(make_rows))
-        .chain()
-        .in_set(Stage::Grow)
+    grow_from_facets.pipe(make_rows).in_set(Stage::Grow)
 }
 
 /// Regions as they come out of growing: the region of each face, and the curvature of each region.
@@ -30,23 +26,6 @@ pub struct Grown {
     pub curvatures: Vec<[f64; 2]>,
     /// Faces that no seed reached.
     pub cracks: usize,
-}
-
-fn check_clusters(clusters: Column<SampleCluster>) -> Result<(), StepError> {
-    let clusters = &clusters[..];
-    match clusters.iter().position(|c| c.0 as usize >= clusters.len()) {
-        None => Ok(()),
-        Some(sample) => Err(StepError::new(
-            format!(
-                "the classifier gave sample {sample} the cluster {}",
-                clusters[sample].0
-            ),
-            format!(
-                "cluster numbers are below the number of samples, {}",
-                clusters.len()
-            ),
-        )),
-    }
 }
 
 fn make_rows(In(grown): In<Grown>, world: &mut World) {

@@ -24,6 +24,7 @@ mod sharp;
 mod spatial_order;
 mod surfaces;
 mod tensor;
+mod threshold;
 
 use std::sync::Arc;
 
@@ -49,6 +50,7 @@ pub use sharp::{SharpSettings, dihedral_angles, sharp_edges, sharp_vertices};
 pub use spatial_order::SpatialOrder;
 pub use surfaces::{Settled, SurfaceSettings, patch_surfaces};
 pub use tensor::{Bending, TensorForm, TensorPair, edge_tensor, face_tensors, vertex_tensors};
+pub use threshold::{Threshold, widest_gap};
 
 /// The built-in steps and their tables of settings.
 pub fn builtin_steps() -> BuiltinSteps {

@@ -14,6 +14,7 @@ use crate::reduction::reduce;
 use crate::region_graph::{Link, RegionGraph};
 use crate::rounding::to_eight_digits;
 use crate::surfaces::Settled;
+use crate::threshold::Threshold;
 
 /// How different two neighbouring regions are, `DC` in `D = DC N S`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
@@ -34,8 +35,9 @@ pub struct MergeSettings {
     /// How different two regions are: `boundary` (paper) or `relative`.
     pub distance: RegionDistance,
     /// Merging stops when the smallest distance is above this. With `boundary` in curvature of the scaled
-    /// mesh (5 in the paper's Fig. 10 and 12); with `relative` without unit (.6 to .7 measure alike).
-    pub threshold: f64,
+    /// mesh (5 in the paper's Fig. 10 and 12); with `relative` without unit (.6 to .7 measure alike). `"auto"`: from
+    /// the distances of the part itself.
+    pub threshold: Threshold,
     /// Merging stops at this number of regions instead; 0: the threshold decides.
     pub regions: u32,
     /// A region below this share of the whole area is small: `A_min` of the paper. From 0.0005 to
@@ -51,11 +53,12 @@ pub struct MergeSettings {
 
 impl StepSettings for MergeSettings {
     const TABLE: &'static str = "merge";
+    const SEVERAL_KINDS: &'static [&'static str] = &["threshold"];
 
     fn defaults(profile: Profile) -> Self {
         let common = Self {
             distance: RegionDistance::Relative,
-            threshold: 0.65,
+            threshold: Threshold::Fixed(0.65),
             regions: 0,
             min_area_share: 0.002,
             small_factor: 0.2,
@@ -65,7 +68,7 @@ impl StepSettings for MergeSettings {
             Profile::Cad => common,
             Profile::Lavoue2005 => Self {
                 distance: RegionDistance::Boundary,
-                threshold: 5.0,
+                threshold: Threshold::Fixed(5.0),
                 small_factor: 1e-5,
                 ..common
             },
@@ -74,9 +77,9 @@ impl StepSettings for MergeSettings {
 
     fn check(&self) -> Result<(), OutOfRange> {
         OutOfRange::unless(
-            self.threshold >= 0.0,
+            self.threshold.is_right(),
             "threshold",
-            "a distance of 0 or more",
+            "a distance of 0 or more, or \"auto\"",
         )?;
         OutOfRange::unless(
             (0.0..=1.0).contains(&self.min_area_share),
@@ -119,7 +122,7 @@ fn merge_regions(
     );
     let mut settings = settings.clone();
     if settled.0.is_some() {
-        settings.threshold = f64::NEG_INFINITY;
+        settings.threshold = Threshold::Fixed(f64::NEG_INFINITY);
         settings.regions = 0;
     }
     let (number, regions) = reduce(graph, &settings, facets.barely_curved, border);

@@ -9,6 +9,7 @@ use seamline_mesh::Sets;
 
 use crate::merge::{MergeSettings, minus, norm, region_distance};
 use crate::region_graph::{Merged, RegionGraph};
+use crate::threshold::{Threshold, widest_gap};
 
 /// A link on the heap, shortest first; of equals, the one with the lower regions.
 #[derive(PartialEq)]
@@ -58,11 +59,19 @@ pub fn reduce(
     barely_curved: f64,
     border: Option<&[VertexCurvature]>,
 ) -> (Vec<u32>, Vec<Region>) {
-    let mut reduction = Reduction::of(graph, settings, barely_curved, border);
     let wanted = settings.regions as usize;
+    let threshold = match settings.threshold {
+        Threshold::Fixed(threshold) => threshold,
+        Threshold::Auto if wanted > 0 => f64::INFINITY,
+        Threshold::Auto => {
+            let to_the_end = Reduction::of(graph.clone(), settings, barely_curved, border);
+            widest_gap(&to_the_end.merged_at(), settings.distance)
+        }
+    };
+    let mut reduction = Reduction::of(graph, settings, barely_curved, border);
     while reduction.left > wanted {
         let tied = reduction.shortest();
-        if tied.is_empty() || (wanted == 0 && tied[0].distance > settings.threshold) {
+        if tied.is_empty() || (wanted == 0 && tied[0].distance > threshold) {
             break;
         }
         for candidate in tied {
@@ -199,6 +208,22 @@ impl<'a> Reduction<'a> {
             }
         }
         tied
+    }
+
+    /// Merges whatever has a link. Gives the distance of each merge, in the order they were made: of equal ones
+    /// only one.
+    fn merged_at(mut self) -> Vec<f64> {
+        let mut distances = Vec::new();
+        loop {
+            let tied = self.shortest();
+            let Some(first) = tied.first() else {
+                return distances;
+            };
+            distances.push(first.distance);
+            for candidate in tied {
+                self.merge(candidate.regions);
+            }
+        }
     }
 
     /// Makes two regions one, or those they have become part of.

@@ -8,6 +8,7 @@ mod file;
 mod folders;
 mod frame;
 mod line;
+mod rules;
 mod schema;
 
 use std::net::SocketAddr;
@@ -21,9 +22,10 @@ pub use error::ConfigError;
 pub use file::ConfigFile;
 pub use frame::{
     After, DaemonTable, DoneTable, HttpTable, LimitsTable, LogFormat, LogLevel, LogTable,
-    OutputTable, QuarantineTable, RetryTable, StateTable, WatchTable, Watcher,
+    OutputTable, QuarantineTable, RetryTable, RuleTable, StateTable, WatchTable, Watcher,
 };
 pub use line::line_of_key;
+pub use rules::Rule;
 pub use schema::schema;
 
 use crate::include::Patterns;

@@ -153,6 +153,7 @@ pub fn run(
     if options.once || options.dry_run {
         check_presence(&setup.config)?;
     }
+    let setup = Arc::new(setup);
     let mut lookout = Lookout::new(&setup.config, options.once);
     if options.dry_run {
         return Ok(Summary {
@@ -185,7 +186,7 @@ pub fn run(
             StartError::Ledger(error) => WatchError::Ledger(error),
         })?;
     let books = Books {
-        setup: Arc::new(setup),
+        setup,
         reload,
         ledger,
         lookout,
@@ -212,10 +213,10 @@ fn check_presence(config: &Config) -> Result<(), WatchError> {
 }
 
 /// The files that have not ended in the state they are in, as far as there is a ledger to tell.
-fn still_to_be_cut(files: Vec<FileFact>, setup: &Setup) -> Vec<PathBuf> {
+fn still_to_be_cut(files: Vec<FileFact>, setup: &Arc<Setup>) -> Vec<PathBuf> {
     let ledger = Reader::open(&setup.config.state).ok();
     let has_ended = |file: &FileFact| {
-        let settings = &setup.settings_hash;
+        let settings = &setup.for_file(&file.path).settings_hash;
         let known = ledger.as_ref();
         known.is_some_and(|ledger| {
             let ended = ledger.has_ended(&file.path, &file.stamp.word(), settings);

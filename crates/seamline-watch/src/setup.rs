@@ -1,12 +1,14 @@
 //! What a job is done with: a configuration and the pipeline it asks for, never changed, only replaced.
 
 use std::collections::BTreeMap;
+use std::path::Path;
 use std::sync::Arc;
 
 use seamline_ecs::Pipeline;
 use toml::Value;
 
 use crate::config::Config;
+use crate::include::Patterns;
 use crate::memory::limit;
 use crate::outputs::OutputFile;
 
@@ -23,11 +25,18 @@ pub struct Setup {
     pub memory_limit_bytes: u64,
     /// Are faces split, so that a mesh takes more memory ([`crate::memory::estimate`])?
     pub enriched: bool,
+    /// The pipelines of files that a rule takes.
+    rules: Vec<(Patterns, Arc<Pipeline>)>,
 }
 
 impl Setup {
     /// Puts the two together.
     pub fn new(config: Config, pipeline: Arc<Pipeline>) -> Self {
+        let memory_limit_bytes = limit(config.limits.memory_limit_bytes);
+        Self::within(config, pipeline, memory_limit_bytes)
+    }
+
+    fn within(config: Config, pipeline: Arc<Pipeline>, memory_limit_bytes: u64) -> Self {
         let mut said = String::new();
         for (name, table) in sorted(pipeline.settings_in_force()) {
             say(name, table, &mut said);
@@ -43,10 +52,35 @@ impl Setup {
             && given("curvature", "carrier").and_then(Value::as_str) == Some("vertices");
         Self {
             enriched,
-            memory_limit_bytes: limit(config.limits.memory_limit_bytes),
+            memory_limit_bytes,
             config,
             pipeline,
             settings_hash: blake3::hash(said.as_bytes()).to_hex().to_string(),
+            rules: Vec::new(),
+        }
+    }
+
+    /// Has the files that a pattern takes, by their path below the watched folder, go through another pipeline. The
+    /// first that takes a file holds.
+    pub fn with_rules(mut self, rules: Vec<(Patterns, Arc<Pipeline>)>) -> Self {
+        self.rules = rules;
+        self
+    }
+
+    /// What a file is cut with: this, or the same with the pipeline of the rule that takes it.
+    pub fn for_file(self: &Arc<Self>, path: &Path) -> Arc<Self> {
+        let below = self
+            .config
+            .watched_with(path)
+            .and_then(|watched| path.strip_prefix(&watched.root).ok());
+        let relative = below.unwrap_or(path);
+        match self.rules.iter().find(|(files, _)| files.take(relative)) {
+            None => Arc::clone(self),
+            Some((_, pipeline)) => Arc::new(Self::within(
+                self.config.clone(),
+                Arc::clone(pipeline),
+                self.memory_limit_bytes,
+            )),
         }
     }
 }

@@ -27,7 +27,7 @@ pub enum Command {
     Requeue(RequeueArgs),
     /// Say what a mesh is, and what is wrong with it
     Inspect(InspectArgs),
-    /// List each swappable stage, what can fill it, and its settings
+    /// List each swappable stage, what can fill it, and its settings; or check a plugin
     Plugins(PluginsArgs),
     /// Check a configuration, or print the schema of all configurations
     Config {
@@ -63,7 +63,8 @@ pub struct PipelineArgs {
     /// Set of defaults: cad or lavoue2005 [default: cad]
     #[arg(long, value_name = "NAME")]
     pub profile: Option<String>,
-    /// Plugin that gives each curvature sample a cluster; see `seamline plugins`
+    /// Plugin that gives each curvature sample a cluster; see `seamline plugins`. A program of your own:
+    /// --set 'pipeline.classifier={ command = ["python3", "my_classifier.py"] }'
     #[arg(long, value_name = "NAME")]
     pub classifier: Option<String>,
     /// Plugin that cleans the boundaries, or none
@@ -139,10 +140,37 @@ pub struct InspectArgs {
 }
 
 #[derive(clap::Args, Debug)]
+#[command(args_conflicts_with_subcommands = true)]
 pub struct PluginsArgs {
     /// As JSON
     #[arg(long)]
     pub json: bool,
+    #[command(subcommand)]
+    pub command: Option<PluginsCommand>,
+}
+
+#[derive(Subcommand, Debug)]
+pub enum PluginsCommand {
+    /// Put a plugin, or a program of your own, to the test of the contract, and say what it breaks
+    Check(CheckPluginArgs),
+}
+
+#[derive(clap::Args, Debug)]
+pub struct CheckPluginArgs {
+    /// The stage a program fills: classify or rectify
+    #[arg(long, value_name = "STAGE", default_value = "classify")]
+    pub stage: String,
+    /// The longest a program may take over one mesh, in seconds
+    #[arg(long, value_name = "SECONDS", default_value_t = 60.0)]
+    pub timeout_s: f64,
+    /// The name of a plugin, or a program with its arguments; one word without `/` is a name
+    #[arg(
+        required = true,
+        value_name = "NAME|COMMAND",
+        trailing_var_arg = true,
+        allow_hyphen_values = true
+    )]
+    pub what: Vec<String>,
 }
 
 #[derive(Subcommand, Debug)]

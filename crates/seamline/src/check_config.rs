@@ -6,7 +6,7 @@ use seamline_watch::{Config, ConfigFile, shown};
 use crate::args::ConfigCommand;
 use crate::outcome::Outcome;
 use crate::say::print;
-use crate::settings::{pipeline_of_file, pipeline_tables};
+use crate::settings::{pipeline_of_file, pipeline_tables, rules_of_file};
 
 /// Checks or prints.
 pub fn run(command: &ConfigCommand) -> Result<Outcome> {
@@ -30,6 +30,10 @@ pub fn run(command: &ConfigCommand) -> Result<Outcome> {
             }
             print(&format_args!("writes to {}", shown(&config.output)))?;
             print(pipeline.settings_in_force())?;
+            for (at, (_, pipeline)) in rules_of_file(&file)?.iter().enumerate() {
+                print(&format_args!("\n# under rule {}:", at + 1))?;
+                print(pipeline.settings_in_force())?;
+            }
         }
     }
     Ok(Outcome::Done)

@@ -12,8 +12,6 @@ use crate::outcome::Outcome;
 use crate::say::print;
 use crate::settings::pipeline_tables;
 
-const STAGES: [SwappableStage; 2] = [SwappableStage::Classify, SwappableStage::Rectify];
-
 /// Lists all plugins and the settings of every step.
 pub fn run(args: &PluginsArgs) -> Result<Outcome> {
     let registry = seamline_plugins::registry();
@@ -35,7 +33,7 @@ pub fn run(args: &PluginsArgs) -> Result<Outcome> {
         )?)?;
         return Ok(Outcome::Done);
     }
-    for stage in STAGES {
+    for stage in SwappableStage::ALL {
         print(&format_args!(
             "{} (--{}):",
             stage.stage().name(),
@@ -52,6 +50,9 @@ pub fn run(args: &PluginsArgs) -> Result<Outcome> {
         if stage == SwappableStage::Rectify {
             print(&"  none  leaves the boundaries as merging made them")?;
         }
+        print(&format_args!(
+            "  {{ command = [\"program\", \"argument\"] }}  a program of your own (plugins/command)"
+        ))?;
     }
     print(&"built-in steps:")?;
     for table in &builtin {

@@ -2,6 +2,7 @@
 
 mod args;
 mod check_config;
+mod check_plugin;
 mod inspect;
 mod list_plugins;
 mod outcome;
@@ -14,7 +15,7 @@ mod watch;
 
 use clap::Parser;
 
-use args::{Args, Command};
+use args::{Args, Command, PluginsArgs, PluginsCommand};
 use outcome::Outcome;
 
 fn main() -> std::process::ExitCode {
@@ -25,6 +26,10 @@ fn main() -> std::process::ExitCode {
         Command::Watch(watch) => watch::run(watch),
         Command::Status(status) => status::run(status),
         Command::Requeue(requeue) => requeue::run(requeue),
+        Command::Plugins(PluginsArgs {
+            command: Some(PluginsCommand::Check(plugin)),
+            ..
+        }) => check_plugin::run(plugin),
         Command::Plugins(plugins) => list_plugins::run(plugins),
         Command::Config { command } => check_config::run(command),
     };

@@ -8,6 +8,7 @@ use seamline_ecs::settings::{Profile, SettingsError, SettingsTable, StepSettings
 use seamline_ecs::{Pipeline, PipelineSettings, tables};
 use seamline_segment::builtin_steps;
 use seamline_watch::ConfigFile;
+use seamline_watch::include::Patterns;
 use toml::Table;
 
 use crate::args::PipelineArgs;
@@ -32,6 +33,20 @@ pub fn pipeline_of_args(args: &PipelineArgs) -> Result<Pipeline> {
 /// The pipeline of a configuration, with the environment laid over it.
 pub fn pipeline_of_file(file: &ConfigFile) -> Result<Pipeline> {
     assemble(Some(file), &PipelineArgs::default())
+}
+
+/// The rules of a configuration, each with its pipeline; the environment is laid over all of them.
+pub fn rules_of_file(file: &ConfigFile) -> Result<Vec<(Patterns, Pipeline)>> {
+    let registry = seamline_plugins::registry();
+    let assemble = |given: &Table| Pipeline::assemble(&builtin_steps(), &registry, given);
+    let mut rules = Vec::new();
+    for rule in file.rules()? {
+        assemble(&rule.settings).map_err(|error| rule.locate(file, error))?;
+        let mut given = rule.settings;
+        lay_environment_over(&mut given, env::vars_os())?;
+        rules.push((rule.files, assemble(&given)?));
+    }
+    Ok(rules)
 }
 
 fn assemble(file: Option<&ConfigFile>, args: &PipelineArgs) -> Result<Pipeline> {

@@ -16,7 +16,7 @@ use tracing_subscriber::filter::LevelFilter;
 use crate::args::{SaidArgs, WatchArgs};
 use crate::outcome::{Outcome, WrongUse, as_said};
 use crate::say::print;
-use crate::settings::{pipeline_of_file, pipeline_tables};
+use crate::settings::{pipeline_of_file, pipeline_tables, rules_of_file};
 
 /// Runs the daemon until it is drained (`--once`) or told to stop (Ctrl-C, SIGTERM). SIGHUP has it read its
 /// configuration anew, as does a change of the file.
@@ -50,7 +50,9 @@ pub fn run(args: &WatchArgs) -> Result<Outcome> {
 fn read(path: &Path) -> Result<Setup> {
     let file = ConfigFile::read(path, &pipeline_tables())?;
     let pipeline = Arc::new(pipeline_of_file(&file)?);
-    Ok(Setup::new(Config::from_file(&file)?, pipeline))
+    let rules = rules_of_file(&file)?.into_iter();
+    let rules = rules.map(|(files, pipeline)| (files, Arc::new(pipeline)));
+    Ok(Setup::new(Config::from_file(&file)?, pipeline).with_rules(rules.collect()))
 }
 
 /// What the signals mean.

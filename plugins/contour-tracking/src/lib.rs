@@ -5,24 +5,18 @@ mod mark;
 mod patches;
 mod track;
 
-use bevy_ecs::prelude::*;
 use schemars::JsonSchema;
-use seamline_ecs::components::{BoundaryScore, ContourState, FaceLabel, Position, SharpEdge};
+use seamline_ecs::components::ContourState;
 use seamline_ecs::settings::{OutOfRange, Profile, StepSettings};
-use seamline_ecs::{
-    Column, ColumnMut, Counts, MeshTopology, Stage, StagePlugin, StageSystems, SwappableStage,
-};
+use seamline_ecs::{LabelledMesh, Labels, Rectifier, StepError};
 use serde::{Deserialize, Serialize};
 
 pub use mark::mark;
 pub use patches::patches;
 pub use track::{Tracked, track};
 
-/// The plugin.
-pub struct ContourTracking;
-
-/// The `[contour-tracking]` table.
-#[derive(Resource, Clone, Debug, Serialize, Deserialize, JsonSchema)]
+/// The plugin, and its `[contour-tracking]` table.
+#[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ContourTrackingSettings {
     /// A boundary edge is correct if its score is below this: `ST` of the paper, which has 5.
@@ -63,40 +57,37 @@ impl StepSettings for ContourTrackingSettings {
     }
 }
 
-impl StagePlugin for ContourTracking {
-    type Settings = ContourTrackingSettings;
-    const STAGE: SwappableStage = SwappableStage::Rectify;
+impl Rectifier for ContourTrackingSettings {
     const SUMMARY: &'static str =
         "keeps correct boundary edges and tracks contours from them until they close (the paper's)";
 
-    fn systems(settings: ContourTrackingSettings) -> StageSystems {
-        let rectify = move |topology: Res<MeshTopology>,
-                            positions: Column<Position>,
-                            scores: Column<BoundaryScore>,
-                            sharp: Column<SharpEdge>,
-                            mut states: ColumnMut<ContourState>,
-                            mut labels: ColumnMut<FaceLabel>,
-                            mut counts: ResMut<Counts>| {
-            let states = &mut states[..];
-            mark(&topology.0, &scores, &sharp, &labels, &settings, states);
-            let tracked = track(
-                &topology.0,
-                &positions,
-                &scores,
-                settings.turn_weight,
-                states,
-            );
-            let patch_count = patches(&topology.0, states, &mut labels);
+    fn rectify(&self, mesh: &LabelledMesh<'_>) -> Result<Labels, StepError> {
+        let (topology, scores) = (mesh.topology, mesh.scores);
+        let mut contours = vec![ContourState::Off; scores.len()];
+        mark(
+            topology,
+            scores,
+            mesh.sharp,
+            mesh.labels,
+            self,
+            &mut contours,
+        );
+        let weight = self.turn_weight;
+        let tracked = track(topology, mesh.positions, scores, weight, &mut contours);
+        let mut of_face = mesh.labels.to_vec();
+        let patch_count = patches(topology, &mut contours, &mut of_face);
 
-            let marked = states
-                .iter()
-                .filter(|&&state| state == ContourState::Correct)
-                .count();
-            counts.note(Stage::Rectify, "correct_edges", marked);
-            counts.note(Stage::Rectify, "open_ends", tracked.open_ends);
-            counts.note(Stage::Rectify, "tracked_edges", tracked.steps);
-            counts.note(Stage::Rectify, "patches", patch_count);
-        };
-        rectify.into_configs()
+        let is_correct = |state: &&ContourState| **state == ContourState::Correct;
+        let counts = vec![
+            ("correct_edges", contours.iter().filter(is_correct).count()),
+            ("open_ends", tracked.open_ends),
+            ("tracked_edges", tracked.steps),
+            ("patches", patch_count),
+        ];
+        Ok(Labels {
+            of_face,
+            contours,
+            counts,
+        })
     }
 }

@@ -8,21 +8,17 @@ mod cluster;
 mod regularise;
 mod seeds;
 
-use bevy_ecs::prelude::*;
 use schemars::JsonSchema;
 use seamline_ecs::components::{SampleCluster, SampleFeature};
 use seamline_ecs::settings::{OutOfRange, Profile, StepSettings};
-use seamline_ecs::{Column, ColumnMut, Counts, Stage, StagePlugin, StageSystems, SwappableStage};
+use seamline_ecs::{Classifier, Clusters, CurvatureSamples, StepError};
 use serde::{Deserialize, Serialize};
 
 pub use cluster::{Clustering, cluster};
 pub use regularise::regularise;
 pub use seeds::seeds;
 
-/// The plugin.
-pub struct KMeans;
-
-/// The `[kmeans]` table.
+/// The plugin, and its `[kmeans]` table.
 #[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct KMeansSettings {
@@ -84,23 +80,20 @@ impl StepSettings for KMeansSettings {
     }
 }
 
-impl StagePlugin for KMeans {
-    type Settings = KMeansSettings;
-    const STAGE: SwappableStage = SwappableStage::Classify;
+impl Classifier for KMeansSettings {
     const SUMMARY: &'static str =
         "k-means on principal curvatures with regularisation (the paper's)";
 
-    fn systems(settings: KMeansSettings) -> StageSystems {
-        let classify = move |features: Column<SampleFeature>,
-                             mut clusters: ColumnMut<SampleCluster>,
-                             mut counts: ResMut<Counts>| {
-            let clustering = classify(&features, &settings);
-            counts.note(Stage::Classify, "clusters", clustering.before);
-            counts.note(Stage::Classify, "clusters_regularised", clustering.after);
-            counts.note(Stage::Classify, "rounds", clustering.rounds);
-            clusters.copy_from_slice(&clustering.of_sample);
-        };
-        classify.into_configs()
+    fn classify(&self, samples: &CurvatureSamples<'_>) -> Result<Clusters, StepError> {
+        let found = classify(samples.features, self);
+        Ok(Clusters {
+            of_sample: found.of_sample,
+            counts: vec![
+                ("clusters", found.before),
+                ("clusters_regularised", found.after),
+                ("rounds", found.rounds),
+            ],
+        })
     }
 }
 

@@ -3,16 +3,17 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use seamline_ecs::SwappableStage;
 use seamline_ecs::settings::{self, Profile, SettingsError, SettingsTable, StepSettings};
 use toml::{Table, Value};
 
 use super::ConfigError;
 use super::frame::{
     DaemonTable, DoneTable, HttpTable, LimitsTable, LogTable, OutputTable, QuarantineTable,
-    RetryTable, StateTable, WatchTable,
+    RetryTable, RuleTable, StateTable, WatchTable,
 };
 
-/// The tables of the frame besides `[[watch]]`.
+/// The tables of the frame besides the lists `[[watch]]` and `[[rules]]`.
 pub(super) const FRAME: [fn() -> SettingsTable; 9] = [
     SettingsTable::of::<OutputTable>,
     SettingsTable::of::<StateTable>,
@@ -24,6 +25,8 @@ pub(super) const FRAME: [fn() -> SettingsTable; 9] = [
     SettingsTable::of::<HttpTable>,
     SettingsTable::of::<LogTable>,
 ];
+
+const LISTS: [&str; 2] = [WatchTable::TABLE, RuleTable::TABLE];
 
 /// A configuration file that is TOML and holds no unknown table; its parts are checked by who needs them.
 #[derive(Clone, Debug)]
@@ -53,7 +56,7 @@ impl ConfigFile {
         let frame: Vec<_> = FRAME.iter().map(|frame| frame().name).collect();
         let known = || {
             let pipeline = pipeline_tables.iter().map(|table| table.name);
-            [WatchTable::TABLE]
+            LISTS
                 .into_iter()
                 .chain(frame.iter().copied())
                 .chain(pipeline)
@@ -71,15 +74,19 @@ impl ConfigFile {
         Ok(file)
     }
 
-    /// The tables that belong to the pipeline, untouched.
+    /// The tables that belong to the pipeline. The folder a program is started in is relative to the file, and
+    /// is told from here.
     pub fn pipeline_settings(&self) -> Table {
-        let of_frame = |name: &str| {
-            name == WatchTable::TABLE || FRAME.iter().any(|frame| frame().name == name)
-        };
+        let of_frame =
+            |name: &str| LISTS.contains(&name) || FRAME.iter().any(|frame| frame().name == name);
         let pipeline = self.tables.iter().filter(|(name, _)| !of_frame(name));
-        pipeline
+        let mut pipeline: Table = pipeline
             .map(|(name, value)| (name.clone(), value.clone()))
-            .collect()
+            .collect();
+        if let Some(Value::Table(choices)) = pipeline.get_mut("pipeline") {
+            at_home(choices, self.path.parent().unwrap_or(Path::new("")));
+        }
+        pipeline
     }
 
     pub(super) fn path(&self) -> &Path {
@@ -105,6 +112,20 @@ impl ConfigFile {
             error.key = error.key.replacen(S::TABLE, at, 1);
             self.locate(error)
         })
+    }
+}
+
+/// Has the programs among the plugins chosen be started from `folder`.
+pub(super) fn at_home(choices: &mut Table, folder: &Path) {
+    for stage in SwappableStage::ALL {
+        if let Some(Value::Table(command)) = choices.get_mut(stage.key()) {
+            let given = command.get("folder").map_or(Some("."), Value::as_str);
+            // What is no text is refused where it is read.
+            if let Some(given) = given {
+                let from_here = folder.join(given).display().to_string();
+                command.insert("folder".to_owned(), Value::String(from_here));
+            }
+        }
     }
 }
 

@@ -4,11 +4,12 @@ use seamline_ecs::settings::{Profile, SettingsTable};
 use serde_json::{Map, Value, json};
 
 use super::file::FRAME;
-use super::frame::WatchTable;
+use super::frame::{RuleTable, WatchTable};
 
 /// The JSON schema of a configuration file: the frame, and the tables of the pipeline.
 ///
-/// Defaults are those of the profile `cad`. Every key may be left out but the root of a watched folder.
+/// Defaults are those of the profile `cad`. Every key may be left out but the root of a watched folder and
+/// the files of a rule.
 pub fn schema(pipeline_tables: &[SettingsTable]) -> Value {
     let mut definitions = Map::new();
     let mut properties = Map::new();
@@ -25,6 +26,24 @@ pub fn schema(pipeline_tables: &[SettingsTable]) -> Value {
     {
         properties.insert(known.name.to_owned(), table(&known, &mut definitions));
     }
+    let mut rule = table(&SettingsTable::of::<RuleTable>(), &mut definitions);
+    rule["required"] = json!(["files"]);
+    let settings = pipeline_tables.iter().map(|known| {
+        (
+            known.name.to_owned(),
+            json!({ "$ref": format!("#/properties/{}", known.name) }),
+        )
+    });
+    rule["properties"]["settings"] = json!({
+        "type": "object",
+        "description": rule["properties"]["settings"]["description"],
+        "properties": Map::from_iter(settings),
+        "additionalProperties": false,
+    });
+    properties.insert(
+        "rules".to_owned(),
+        json!({ "type": "array", "items": rule }),
+    );
     json!({
         "$schema": "https://json-schema.org/draft/2020-12/schema",
         "title": "Seamline configuration",
@@ -34,6 +53,9 @@ pub fn schema(pipeline_tables: &[SettingsTable]) -> Value {
         "$defs": definitions,
     })
 }
+
+/// The keys that have no default.
+const REQUIRED: [(&str, &str); 2] = [("watch", "root"), ("rules", "files")];
 
 /// One table: no key required, defaults filled in, shared definitions moved to where `$ref` looks for them.
 fn table(known: &SettingsTable, definitions: &mut Map<String, Value>) -> Value {
@@ -49,7 +71,7 @@ fn table(known: &SettingsTable, definitions: &mut Map<String, Value>) -> Value {
             for (key, of_key) in keys {
                 let default = defaults
                     .get(key)
-                    .filter(|_| (known.name, key.as_str()) != ("watch", "root"));
+                    .filter(|_| !REQUIRED.contains(&(known.name, key.as_str())));
                 if let (Some(default), Some(of_key)) = (default, of_key.as_object_mut()) {
                     of_key.insert("default".to_owned(), default.clone());
                 }

@@ -236,7 +236,7 @@ impl Open {
                 return Ok(());
             };
             let id = file.id;
-            let settings = self.with.setup.settings_hash.clone();
+            let settings = self.with.setup.for_file(&file.path).settings_hash.clone();
             let attempts = self.record(|ledger| ledger.begin(id, &settings))?;
             let waited = file.clone();
             if let Some(job) = self.job(file, attempts) {
@@ -253,7 +253,7 @@ impl Open {
 
     /// The job on a file; nothing if its folder is watched no longer.
     fn job(&self, file: Waiting, attempts: u32) -> Option<Job> {
-        let setup = self.with.setup.clone();
+        let setup = self.with.setup.for_file(&file.path);
         let watched = setup.config.watched_with(&file.path)?;
         Some(Job {
             after: watched.after,

@@ -1,5 +1,6 @@
 //! Files that have held still are entered; those that went away are crossed out.
 
+use std::collections::BTreeMap;
 use std::time::Instant;
 
 use tracing::info;
@@ -14,9 +15,19 @@ use crate::shown;
 
 impl Open {
     pub(super) fn take_in(&mut self, ready: Vec<Ready>) -> Result<(), WatchError> {
-        if ready.is_empty() {
-            return Ok(());
+        let mut by_settings: BTreeMap<String, Vec<Ready>> = BTreeMap::new();
+        for ready in ready {
+            let setup = self.with.setup.for_file(&ready.file.path);
+            let alike = by_settings.entry(setup.settings_hash.clone());
+            alike.or_default().push(ready);
         }
+        for (settings, ready) in by_settings {
+            self.take_in_under(&settings, ready)?;
+        }
+        Ok(())
+    }
+
+    fn take_in_under(&mut self, settings: &str, ready: Vec<Ready>) -> Result<(), WatchError> {
         let stamps: Vec<_> = ready.iter().map(|ready| ready.file.stamp.word()).collect();
         let arrivals: Vec<_> = ready
             .iter()
@@ -27,8 +38,7 @@ impl Open {
                 stamp,
             })
             .collect();
-        let settings = self.with.setup.settings_hash.clone();
-        let taken = self.record(|ledger| ledger.take_in(&arrivals, &settings))?;
+        let taken = self.record(|ledger| ledger.take_in(&arrivals, settings))?;
         let mut taken: Vec<_> = ready.into_iter().zip(taken).collect();
         // Those that may bring the program down come when the others are done.
         taken.sort_by_key(|(_, taken)| taken.suspicion());

@@ -1,0 +1,117 @@
+//! Rectifiers: cleaner boundaries for a labelled mesh.
+
+use bevy_ecs::prelude::*;
+use bevy_ecs::system::SystemParam;
+use seamline_mesh::{Mesh, Topology};
+
+use super::{StepError, StepSettings, check_answers};
+use crate::column::{Column, ColumnMut};
+use crate::components::*;
+use crate::job::{Counts, InputMesh, MeshTopology};
+use crate::stage::{Stage, StageSystems, fallible};
+
+/// One way to clean the boundaries of patches. The value is the plugin's settings.
+pub trait Rectifier: StepSettings {
+    /// What it does, in one line.
+    const SUMMARY: &'static str;
+
+    /// Gives each face its final label. Faces of one label are one patch, whether they touch or not.
+    ///
+    /// # Errors
+    ///
+    /// Where it cannot do its work on this mesh: the job ends with this reason.
+    fn rectify(&self, mesh: &LabelledMesh<'_>) -> Result<Labels, StepError>;
+}
+
+/// What a rectifier answers.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Labels {
+    /// One a face, below the number of faces.
+    pub of_face: Vec<FaceLabel>,
+    /// What was done to each edge, one an edge; empty where that is not told.
+    pub contours: Vec<ContourState>,
+    /// Numbers for the report, such as how many patches there are.
+    pub counts: Vec<(&'static str, usize)>,
+}
+
+/// A mesh cut into patches whose boundaries are to be cleaned. Lengths are in units of the scaled mesh. Slices
+/// of one kind of element are of one length.
+#[derive(Clone, Copy)]
+pub struct LabelledMesh<'a> {
+    /// Edges and neighbours of the scaled mesh.
+    pub topology: &'a Topology,
+    /// One a vertex.
+    pub positions: &'a [Position],
+    /// Normal and area, one a face.
+    pub shapes: &'a [FaceShape],
+    /// Signed dihedral angle in radians, one an edge.
+    pub angles: &'a [DihedralAngle],
+    /// One an edge.
+    pub sharp: &'a [SharpEdge],
+    /// How badly each edge would serve as a boundary, 0 (well) to 90 degrees.
+    pub scores: &'a [BoundaryScore],
+    /// The patch of each face so far, below the number of faces.
+    pub labels: &'a [FaceLabel],
+    /// The mesh as it was read, in the file's unit, its vertices and faces in the file's order.
+    pub mesh: &'a Mesh,
+}
+
+impl LabelledMesh<'_> {
+    /// The length of an edge.
+    pub fn edge_length(&self, edge: usize) -> f64 {
+        let [a, b] = self.topology.edge_vertices[edge].map(|v| self.positions[v as usize].0);
+        a.distance(b)
+    }
+}
+
+#[derive(SystemParam)]
+struct BoundaryColumns<'w, 's> {
+    topology: Res<'w, MeshTopology>,
+    positions: Column<'w, 's, Position>,
+    shapes: Column<'w, 's, FaceShape>,
+    angles: Column<'w, 's, DihedralAngle>,
+    sharp: Column<'w, 's, SharpEdge>,
+    scores: Column<'w, 's, BoundaryScore>,
+    mesh: Res<'w, InputMesh>,
+}
+
+/// The system that lends `rectify` its columns, checks its answer and writes it down.
+pub fn rectifier_systems(
+    rectify: impl Fn(&LabelledMesh<'_>) -> Result<Labels, StepError> + Send + Sync + 'static,
+) -> StageSystems {
+    let system = move |columns: BoundaryColumns,
+                       mut labels: ColumnMut<FaceLabel>,
+                       mut contours: ColumnMut<ContourState>,
+                       mut counts: ResMut<Counts>| {
+        let seen = LabelledMesh {
+            topology: &columns.topology.0,
+            positions: &columns.positions,
+            shapes: &columns.shapes,
+            angles: &columns.angles,
+            sharp: &columns.sharp,
+            scores: &columns.scores,
+            labels: &labels,
+            mesh: &columns.mesh.0,
+        };
+        let found = rectify(&seen)?;
+        let answers = found.of_face.iter().map(|label| label.0);
+        check_answers("rectifier", "label", "face", answers, labels.len())?;
+        if found.contours.is_empty() {
+            contours.fill(ContourState::Off);
+        } else if found.contours.len() == contours.len() {
+            contours.copy_from_slice(&found.contours);
+        } else {
+            let (given, wanted) = (found.contours.len(), contours.len());
+            return Err(StepError::new(
+                format!("the rectifier told of {given} edges where there are {wanted}"),
+                "one state for every edge, or none at all",
+            ));
+        }
+        labels.copy_from_slice(&found.of_face);
+        for (name, value) in found.counts {
+            counts.note(Stage::Rectify, name, value);
+        }
+        Ok(())
+    };
+    fallible(system)
+}

@@ -129,6 +129,7 @@ impl Rectifier for Far {
 #[test]
 fn whatever_breaks_the_contract_is_told() {
     let registry = Registry::default()
+        .with_classifier::<seamline_kmeans::KMeansSettings>()
         .with_classifier::<Short>()
         .with_classifier::<Wild>()
         .with_classifier::<Moody>()

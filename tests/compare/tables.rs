@@ -123,9 +123,10 @@ fn settings(profile: &str, classifier: &str, rectifier: &str) -> Vec<String> {
         ("classifier", classifier),
         ("rectifier", rectifier),
     ];
-    named
-        .map(|(key, name)| format!("pipeline.{key}={name}"))
-        .to_vec()
+    // Where surfaces explain a mesh no classifier is asked.
+    let by_curvature = "surfaces.enabled=false".to_owned();
+    let named = named.map(|(key, name)| format!("pipeline.{key}={name}"));
+    named.into_iter().chain([by_curvature]).collect()
 }
 
 fn pairs() -> impl Iterator<Item = (&'static str, &'static str)> {

@@ -48,7 +48,7 @@ const FARTHER: f64 = 0.1;
 /// `merged_at` is in the order of the merges. What counts is the greatest distance so far: a threshold below it
 /// would have stopped before. Where nothing merges in the whole range, that is the gap.
 ///
-/// Measured on the bench (`plugins/COMPARISON.md`): as good as the best fixed threshold of either distance. Gaps
+/// Measured on the bench (`plugins/COMPARISON.md`): as good as the default threshold of either distance. Gaps
 /// alone, however far, lose .003 to .005 of ARI on coarse meshes: between .4 and 1 a part of many fillets has
 /// its widest gap anywhere.
 pub fn widest_gap(merged_at: &[f64], distance: RegionDistance) -> f64 {

@@ -64,6 +64,9 @@ const PRECISION: f64 = 5e-8;
 /// Root mean square of what single precision takes from a coordinate, as a share of it.
 const ROUNDING: f64 = 0.29 * f32::EPSILON as f64;
 
+/// Exact share of the area below which no more is looked for: vertices are noisy, or nothing was designed.
+const HARDLY_ANYTHING: f64 = 0.005;
+
 /// How flat a piece is, as a share of the tolerance.
 const FLATNESS: f64 = 0.3;
 
@@ -118,6 +121,10 @@ pub fn find(positions: &[DVec3], topology: &Topology, farthest: f64) -> Found {
         positions: &scaled,
         pieces: &pieces,
     };
+    let exact_share = exact_share(view, &regions);
+    if exact_share < HARDLY_ANYTHING {
+        return nothing_exact(topology);
+    }
     let trusted = trust::trusted(view, topology, &regions);
     let doubtful: Vec<u32> = regions.alive().filter(|&r| !trusted[r as usize]).collect();
     for region in doubtful {
@@ -133,18 +140,33 @@ pub fn find(positions: &[DVec3], topology: &Topology, farthest: f64) -> Found {
     creases::split(&scaled, topology, &triangles, &parts.forms, &mut of_face);
     let (of_face, part_of) = connected(topology, &of_face);
     let surfaces = describe::surfaces(view, &regions, &parts, &part_of, ladder[0]);
-    let exact = regions.alive().filter(|&r| regions.all[r as usize].exact);
-    let exact: f64 = exact
-        .map(|r| view.area(&regions.all[r as usize].pieces))
-        .sum();
-    let whole: f64 = triangles.areas.iter().sum();
     Found {
         of_face,
         surfaces: surfaces
             .into_iter()
             .map(|fitted| fitted.map(|f| f.moved(centre, diagonal)))
             .collect(),
-        exact_share: if whole > 0.0 { exact / whole } else { 0.0 },
+        exact_share,
+    }
+}
+
+/// Share of the area that regions take on which their vertices lie exactly.
+fn exact_share(view: View, regions: &Regions) -> f64 {
+    let exact = regions.alive().filter(|&r| regions.all[r as usize].exact);
+    let exact: f64 = exact
+        .map(|r| view.area(&regions.all[r as usize].pieces))
+        .sum();
+    let whole: f64 = view.pieces.areas.iter().sum();
+    if whole > 0.0 { exact / whole } else { 0.0 }
+}
+
+/// Where next to nothing is exact, nothing is said: one patch a connected piece.
+fn nothing_exact(topology: &Topology) -> Found {
+    let (of_face, part_of) = connected(topology, &vec![0; topology.triangles.len()]);
+    Found {
+        of_face,
+        surfaces: vec![None; part_of.len()],
+        exact_share: 0.0,
     }
 }
 
@@ -208,6 +230,9 @@ fn climb(
         accept_planes(view, &mut regions, tolerance);
         step(view, topology, &mut regions, rung, tolerance);
         absorb::absorb(view, &mut regions, tolerance);
+        if exact_share(view, &regions) < HARDLY_ANYTHING {
+            break;
+        }
         let owned = |&piece: &u32| {
             let taken = regions.owner[piece as usize] != NONE;
             if taken { piece } else { NONE }

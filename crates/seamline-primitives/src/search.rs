@@ -18,6 +18,9 @@ const RING_COS: f64 = 0.9;
 const MOST_IN_RING: usize = 60;
 /// Most neighbourhoods of three pieces tried for one seed.
 const MOST_TRIPLES: usize = 12;
+/// After so many seeds in vain one more piece about each further one is none: a large free form takes as many
+/// seeds as the root of its pieces.
+const IN_A_ROW: usize = 32;
 /// Pieces of a strip.
 const STRIP: usize = 8;
 /// Most vertices a fit looks at; more do not make it better.
@@ -83,15 +86,21 @@ impl<'a> Search<'a> {
         let mut covered = vec![false; pieces.count()];
         let mut found = Vec::new();
         let mut failed = vec![false; pieces.count()];
+        let mut in_a_row = 0;
         for seed in seeds {
             // Beside a seed that was in vain another rarely is not, and free forms are all such.
             let in_vain = self.neighbours(seed).any(|p| failed[p as usize]);
             if covered[seed as usize] || in_vain {
                 continue;
             }
-            failed[seed as usize] = true;
-            for hypothesis in self.hypotheses_of(seed) {
-                failed[seed as usize] &= !hypothesis.strong;
+            let hypotheses = self.hypotheses_of(seed);
+            if hypotheses.iter().any(|h| h.strong) {
+                in_a_row /= 2;
+            } else {
+                in_a_row += 1;
+                self.mark_about(seed, 1 + in_a_row / IN_A_ROW, &mut failed);
+            }
+            for hypothesis in hypotheses {
                 if hypothesis.strong && hypothesis.pieces.len() >= COVERS {
                     for &piece in &hypothesis.pieces {
                         covered[piece as usize] = true;
@@ -101,6 +110,21 @@ impl<'a> Search<'a> {
             }
         }
         found
+    }
+
+    /// Marks a seed and the pieces about it, `most` at most.
+    fn mark_about(&self, seed: u32, most: usize, failed: &mut [bool]) {
+        let mut region = vec![seed];
+        failed[seed as usize] = true;
+        let mut at = 0;
+        while at < region.len() && region.len() < most {
+            for across in self.neighbours(region[at]) {
+                if !std::mem::replace(&mut failed[across as usize], true) {
+                    region.push(across);
+                }
+            }
+            at += 1;
+        }
     }
 
     /// Pieces beside a piece that may take part, over links that are no walls.

@@ -16,6 +16,11 @@ const STAR_COS: f64 = 0.7;
 const RING_COS: f64 = 0.9;
 /// Most pieces in a neighbourhood.
 const MOST_IN_RING: usize = 60;
+/// Least cosine (18 degrees) between the normals of a disc and of its seed, most pieces in a disc, and by
+/// what the next disc is smaller: on dense meshes rings turn too little to tell one surface from another.
+const DISC_COS: f64 = 0.95;
+const MOST_IN_DISC: usize = 4000;
+const DISC_SHRINKS: usize = 4;
 /// Most neighbourhoods of three pieces tried for one seed.
 const MOST_TRIPLES: usize = 12;
 /// After so many seeds in vain one more piece about each further one is none: a large free form takes as many
@@ -140,6 +145,9 @@ impl<'a> Search<'a> {
     /// The best hypothesis of each kind that holds the seed.
     fn hypotheses_of(&mut self, seed: u32) -> Vec<Hypothesis> {
         let mut best: [Option<Hypothesis>; 4] = Default::default();
+        if self.on_discs(seed, &mut best) {
+            return best.into_iter().flatten().collect();
+        }
         for triple in self.triples(seed) {
             for kind in [Kind::Cylinder, Kind::Cone] {
                 if self.settled(&best, kind) {
@@ -179,6 +187,46 @@ impl<'a> Search<'a> {
             }
         }
         best.into_iter().flatten().collect()
+    }
+
+    /// Tries the discs about a seed, the largest first. True if one proved to be of a surface, so that smaller
+    /// neighbourhoods can tell nothing more.
+    fn on_discs(&mut self, seed: u32, best: &mut [Option<Hypothesis>; 4]) -> bool {
+        let mut disc = self.disc(seed, DISC_COS, MOST_IN_DISC);
+        while disc.len() > MOST_IN_RING {
+            for kind in Kind::CURVED {
+                self.attempt(seed, kind, &disc, best);
+                let proved = |h: &Hypothesis| h.strong && h.exact && h.pieces.len() >= disc.len() / 2;
+                if best[kind as usize - 1].as_ref().is_some_and(proved) {
+                    return true;
+                }
+            }
+            disc.truncate(disc.len() / DISC_SHRINKS);
+        }
+        false
+    }
+
+    /// The seed and the pieces about it, nearest first, as far as the surface turns little.
+    fn disc(&mut self, seed: u32, least_cos: f64, most: usize) -> Vec<u32> {
+        let pieces = self.view.pieces;
+        let normal = pieces.normals[seed as usize];
+        self.marks.begin(pieces.count());
+        self.marks.mark(seed);
+        let mut disc = vec![seed];
+        let mut at = 0;
+        while at < disc.len() && disc.len() < most {
+            for link in pieces.smooth_links(disc[at]) {
+                let across = link.across(disc[at]);
+                if self.open[across as usize]
+                    && pieces.normals[across as usize].dot(normal) >= least_cos
+                    && self.marks.mark(across)
+                {
+                    disc.push(across);
+                }
+            }
+            at += 1;
+        }
+        disc
     }
 
     /// Is more of this kind not to be had?

@@ -122,7 +122,6 @@ pub fn find(positions: &[DVec3], topology: &Topology, farthest: f64) -> Found {
         pieces: &pieces,
     };
     let exact_share = exact_share(view, &regions);
-    let t0 = std::time::Instant::now();
     if exact_share < HARDLY_ANYTHING {
         return nothing_exact(topology);
     }
@@ -139,10 +138,8 @@ pub fn find(positions: &[DVec3], topology: &Topology, farthest: f64) -> Found {
         .map(|&p| parts.of_piece[p as usize])
         .collect();
     creases::split(&scaled, topology, &triangles, &parts.forms, &mut of_face);
-    eprintln!("TIME trust+parts+creases {:?}", t0.elapsed());
     let (of_face, part_of) = connected(topology, &of_face);
     let surfaces = describe::surfaces(view, &regions, &parts, &part_of, ladder[0]);
-    eprintln!("TIME describe {:?}", t0.elapsed());
     Found {
         of_face,
         surfaces: surfaces
@@ -222,11 +219,9 @@ fn climb(
     for (rung, &tolerance) in ladder.iter().enumerate() {
         let flat = FLATNESS * tolerance;
         let fewest = PLANE_VERTICES[rung];
-        let t0 = std::time::Instant::now();
         let next = Pieces::find(positions, topology, triangles, flat, &settled, fewest);
         regions = regions.moved(&pieces, &next);
         pieces = next;
-        eprintln!("TIME pieces {:?} {}", t0.elapsed(), pieces.count());
         let view = View {
             precision,
             positions,
@@ -234,9 +229,7 @@ fn climb(
         };
         accept_planes(view, &mut regions, tolerance);
         step(view, topology, &mut regions, rung, tolerance);
-        let t1 = std::time::Instant::now();
         absorb::absorb(view, &mut regions, tolerance);
-        eprintln!("TIME absorb {:?}", t1.elapsed());
         if exact_share(view, &regions) < HARDLY_ANYTHING {
             break;
         }
@@ -267,7 +260,6 @@ fn accept_planes(view: View, regions: &mut Regions, tolerance: f64) {
 
 /// One rung of the ladder of tolerances.
 fn step(view: View, topology: &Topology, regions: &mut Regions, rung: usize, tolerance: f64) {
-    let t0 = std::time::Instant::now();
     let freed = if rung == 0 {
         Vec::new()
     } else {
@@ -282,7 +274,6 @@ fn step(view: View, topology: &Topology, regions: &mut Regions, rung: usize, tol
         .map(|p| regions.owner[p] == NONE)
         .collect();
     let found = Search::new(view, &open, tolerance).run();
-    eprintln!("TIME rung {rung} search {:?} found {} open {}", t0.elapsed(), found.len(), open.iter().filter(|o| **o).count());
     let least = |kind: Kind| match (rung, kind) {
         (0, _) => 1,
         (1, Kind::Cylinder) => 8,
@@ -303,7 +294,6 @@ fn step(view: View, topology: &Topology, regions: &mut Regions, rung: usize, tol
             }
         }
     }
-    eprintln!("TIME rung {rung} select {:?}", t0.elapsed());
     for hypothesis in freed {
         let left = free_part(view, regions, &hypothesis, tolerance);
         if let Some(back) = left

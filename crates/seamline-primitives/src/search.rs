@@ -21,6 +21,8 @@ const MOST_IN_RING: usize = 60;
 const DISC_COS: f64 = 0.95;
 const MOST_IN_DISC: usize = 4000;
 const DISC_SHRINKS: usize = 4;
+/// Pieces of a disc that a fit looks at first.
+const DISC_SAMPLE: usize = 64;
 /// Most neighbourhoods of three pieces tried for one seed.
 const MOST_TRIPLES: usize = 12;
 /// After so many seeds in vain one more piece about each further one is none: a large free form takes as many
@@ -66,6 +68,8 @@ pub(crate) struct Search<'a> {
     marks: Marks,
     /// Neighbourhoods, by their hash, that were tried for a kind.
     tried: HashSet<(u64, Kind)>,
+    /// Pieces in the midst of discs that are on no surface.
+    amid_failure: Vec<bool>,
 }
 
 impl<'a> Search<'a> {
@@ -76,6 +80,7 @@ impl<'a> Search<'a> {
             open,
             marks: Marks::default(),
             tried: HashSet::new(),
+            amid_failure: vec![false; open.len()],
         }
     }
 
@@ -192,16 +197,25 @@ impl<'a> Search<'a> {
     /// Tries the discs about a seed, the largest first. True if one proved to be of a surface, so that smaller
     /// neighbourhoods can tell nothing more.
     fn on_discs(&mut self, seed: u32, best: &mut [Option<Hypothesis>; 4]) -> bool {
+        if self.amid_failure[seed as usize] {
+            return false;
+        }
         let mut disc = self.disc(seed, DISC_COS, MOST_IN_DISC);
+        let inner = disc[..disc.len().min(MOST_IN_RING)].to_vec();
         while disc.len() > MOST_IN_RING {
+            let step = disc.len().div_ceil(DISC_SAMPLE);
+            let sample: Vec<u32> = disc.iter().copied().step_by(step).collect();
             for kind in Kind::CURVED {
-                self.attempt(seed, kind, &disc, best);
+                self.attempt(seed, kind, &sample, best);
                 let proved = |h: &Hypothesis| h.strong && h.exact && h.pieces.len() >= disc.len() / 2;
                 if best[kind as usize - 1].as_ref().is_some_and(proved) {
                     return true;
                 }
             }
             disc.truncate(disc.len() / DISC_SHRINKS);
+        }
+        for piece in inner {
+            self.amid_failure[piece as usize] = true;
         }
         false
     }

@@ -12,6 +12,16 @@ use crate::surface::Kind;
 const LONE_TRIANGLE_COS: f64 = 0.2;
 const PIECE_COS: f64 = 0.85;
 
+/// A flat piece whose vertices lie on a curved surface is of its tessellation if it is no coarser: the steps
+/// from it to the surface are at most so many times those of the others.
+const LIKE_THE_OTHERS: f64 = 1.25;
+
+/// Are the pieces of a plane steps of a curved surface, and not a flat on it, as at the end of a ball?
+fn is_of_one_tessellation(view: View, curved: &Hypothesis, plane: &Hypothesis) -> bool {
+    let step = |pieces: &[u32]| view.greatest_step(&curved.surface, curved.sign, pieces);
+    step(&plane.pieces) <= LIKE_THE_OTHERS * step(&curved.pieces)
+}
+
 /// Gives regions and unowned pieces that lie on the surface of a larger neighbour to it, over walls too.
 pub(crate) fn absorb(view: View, regions: &mut Regions, tolerance: f64) {
     for _ in 0..5 {
@@ -20,6 +30,16 @@ pub(crate) fn absorb(view: View, regions: &mut Regions, tolerance: f64) {
         if joined == 0 {
             break;
         }
+    }
+}
+
+/// How far from a region's surface what it takes in may lie: what its own vertices lie on exactly takes in
+/// nothing that does not.
+fn reach(region: &Hypothesis, tolerance: f64) -> f64 {
+    if region.exact {
+        region.tolerance
+    } else {
+        region.tolerance.max(tolerance)
     }
 }
 
@@ -40,14 +60,14 @@ fn absorb_regions(view: View, regions: &mut Regions, tolerance: f64) -> usize {
         }
         let evidence = |r: u32| regions.all[r as usize].evidence;
         let takes = |large: u32| {
-            let Hypothesis { surface, sign, .. } = &regions.all[large as usize];
+            let large = &regions.all[large as usize];
             let own = &regions.all[small as usize];
+            let tolerance = reach(large, tolerance);
             let certain = own.surface.kind == Kind::Plane && own.exact;
-            (regions.all[large as usize].exact || !certain)
-                && own
-                    .pieces
-                    .iter()
-                    .all(|&p| view.fits(p, surface, *sign, tolerance))
+            let lies = |&p: &u32| view.fits(p, &large.surface, large.sign, tolerance);
+            (large.exact || !certain)
+                && own.pieces.iter().all(lies)
+                && (!certain || is_of_one_tessellation(view, large, own))
         };
         let taker = beside
             .into_iter()
@@ -55,7 +75,7 @@ fn absorb_regions(view: View, regions: &mut Regions, tolerance: f64) -> usize {
             .max_by(|a, b| a.1.total_cmp(&b.1));
         if let Some((large, _)) = taker {
             let gone = regions.dissolve(small);
-            join(view, regions, large, gone.pieces, tolerance);
+            join(view, regions, large, gone.pieces);
             joined += 1;
         }
     }
@@ -78,6 +98,7 @@ fn absorb_pieces(view: View, regions: &mut Regions, tolerance: f64) -> usize {
                 continue;
             }
             let Hypothesis { surface, sign, .. } = &regions.all[owner as usize];
+            let tolerance = reach(&regions.all[owner as usize], tolerance);
             if view.fits_turned(piece, surface, *sign, tolerance, cos)
                 && best.is_none_or(|(length, _)| link.length > length)
             {
@@ -89,12 +110,12 @@ fn absorb_pieces(view: View, regions: &mut Regions, tolerance: f64) -> usize {
     takers.sort_unstable();
     for same in takers.chunk_by(|a, b| a.0 == b.0) {
         let pieces = same.iter().map(|&(_, piece)| piece).collect();
-        join(view, regions, same[0].0, pieces, tolerance);
+        join(view, regions, same[0].0, pieces);
     }
     takers.len()
 }
 
-fn join(view: View, regions: &mut Regions, region: u32, more: Vec<u32>, tolerance: f64) {
+fn join(view: View, regions: &mut Regions, region: u32, more: Vec<u32>) {
     for &piece in &more {
         regions.owner[piece as usize] = region;
     }
@@ -102,5 +123,5 @@ fn join(view: View, regions: &mut Regions, region: u32, more: Vec<u32>, toleranc
     let mut pieces = std::mem::take(&mut own.pieces);
     pieces.extend(more);
     debug_assert_eq!(pieces.iter().collect::<HashSet<_>>().len(), pieces.len());
-    *own = view.weigh(own.surface, own.sign, pieces, tolerance);
+    *own = view.weigh(own.surface, own.sign, pieces, own.tolerance);
 }

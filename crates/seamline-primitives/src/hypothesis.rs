@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use crate::guess::{Neighbourhood, guesses};
-use crate::pieces::Pieces;
+use crate::pieces::{Pieces, Triangles};
 use crate::refine::refine_patiently;
 use crate::surface::{Kind, Surface};
 
@@ -14,6 +14,8 @@ pub(crate) struct Hypothesis {
     /// Does the distance grow towards the outside (1) or the inside (-1) of the part?
     pub sign: f64,
     pub pieces: Vec<u32>,
+    /// Greatest distance at which a vertex was taken to lie on it.
+    pub tolerance: f64,
     /// Distinct vertices less degrees of freedom.
     pub evidence: i64,
     /// Do its vertices lie on it as exactly as they are stored? A free form comes near many surfaces, and
@@ -29,11 +31,12 @@ pub(crate) struct View<'a> {
     /// Root mean square distance up to which vertices lie on a surface exactly.
     pub precision: f64,
     pub positions: &'a [DVec3],
+    pub triangles: &'a Triangles,
     pub pieces: &'a Pieces,
 }
 
 impl View<'_> {
-    /// Do all vertices of a piece lie on the surface, and does its normal agree at the centroid?
+    /// Do all vertices of a piece lie on the surface, and does its normal agree at its faces' centroids?
     pub fn fits(&self, piece: u32, surface: &Surface, sign: f64, tolerance: f64) -> bool {
         self.fits_turned(piece, surface, sign, tolerance, NORMALS_AGREE)
     }
@@ -47,14 +50,34 @@ impl View<'_> {
         least_cos: f64,
     ) -> bool {
         let normal = self.pieces.normals[piece as usize];
-        let gradient = surface.gradient(self.pieces.centroids[piece as usize]);
-        (normal == DVec3::ZERO || sign * gradient.dot(normal) >= least_cos)
+        let agrees = |x: DVec3| sign * surface.gradient(x).dot(normal) >= least_cos;
+        let faces = self.pieces.faces.row(piece);
+        let agree = if faces.len() <= 2 {
+            agrees(self.pieces.centroids[piece as usize])
+        } else {
+            // The centroid of a piece bent like a ring lies far from it.
+            let mut centroids = faces.iter().map(|&f| self.triangles.centroids[f as usize]);
+            centroids.all(agrees)
+        };
+        (normal == DVec3::ZERO || agree)
             && self
                 .pieces
                 .vertices
                 .row(piece)
                 .iter()
                 .all(|&v| surface.distance(self.positions[v as usize]).abs() <= tolerance)
+    }
+
+    /// Greatest angle between a surface's normal at the vertices of pieces on it and the pieces' own, in radians.
+    pub fn greatest_step(&self, surface: &Surface, sign: f64, pieces: &[u32]) -> f64 {
+        let at = |&piece: &u32| {
+            let normal = self.pieces.normals[piece as usize];
+            let vertices = self.pieces.vertices.row(piece).iter();
+            vertices
+                .map(|&v| sign * surface.gradient(self.positions[v as usize]).dot(normal))
+                .fold(1.0, f64::min)
+        };
+        pieces.iter().map(at).fold(1.0, f64::min).max(-1.0).acos()
     }
 
     /// Do the vertices of a piece lie in the plane of its centroid and normal?
@@ -108,6 +131,7 @@ impl View<'_> {
             surface,
             sign,
             pieces,
+            tolerance,
             evidence,
         }
     }

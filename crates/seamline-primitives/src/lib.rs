@@ -41,6 +41,7 @@ mod search;
 mod select;
 mod surface;
 mod trust;
+mod whole;
 
 use glam::DVec3;
 use seamline_mesh::{Sets, Topology};
@@ -119,6 +120,7 @@ pub fn find(positions: &[DVec3], topology: &Topology, farthest: f64) -> Found {
     let view = View {
         precision,
         positions: &scaled,
+        triangles: &triangles,
         pieces: &pieces,
     };
     let exact_share = exact_share(view, &regions);
@@ -130,7 +132,13 @@ pub fn find(positions: &[DVec3], topology: &Topology, farthest: f64) -> Found {
     for region in doubtful {
         regions.dissolve(region);
     }
+    // What is free now may lie on a neighbour.
+    absorb::absorb(view, &mut regions, ladder[0]);
     let mut parts = parts::parts(view, topology, &regions, ladder[0]);
+    if whole::accept_wholes(view, &mut regions, &parts, ladder[0]) {
+        absorb::absorb(view, &mut regions, ladder[0]);
+        parts = parts::parts(view, topology, &regions, ladder[0]);
+    }
     parts::join_islands(view, &regions, &mut parts);
     let mut of_face: Vec<u32> = pieces
         .of_face
@@ -225,6 +233,7 @@ fn climb(
         let view = View {
             precision,
             positions,
+            triangles,
             pieces: &pieces,
         };
         accept_planes(view, &mut regions, tolerance);

@@ -30,6 +30,17 @@ pub(crate) struct Parts {
     pub forms: Vec<Form>,
 }
 
+impl Parts {
+    /// The pieces of each part.
+    pub fn pieces(&self) -> Vec<Vec<u32>> {
+        let mut of_part = vec![Vec::new(); self.forms.len()];
+        for (piece, &part) in self.of_piece.iter().enumerate() {
+            of_part[part as usize].push(piece as u32);
+        }
+        of_part
+    }
+}
+
 /// How many times larger than each smooth neighbour a flat piece is a plane of its own.
 const MUCH_LARGER: f64 = 4.0;
 /// Share of its smooth border along which a flat piece that is a plane of its own touches accepted surfaces.
@@ -109,7 +120,8 @@ fn is_plane(
             tangent += at.length;
         }
     }
-    pieces.areas[piece as usize] > MUCH_LARGER * largest || tangent > TANGENT_SHARE * smooth
+    view.is_flat(piece, tolerance)
+        && (pieces.areas[piece as usize] > MUCH_LARGER * largest || tangent > TANGENT_SHARE * smooth)
 }
 
 /// A part on the way to others.

@@ -57,6 +57,10 @@ fn descend(guess: Surface, points: &[DVec3], tolerance: f64, falls_to: f64) -> O
                 lambda *= 8.0;
                 continue;
             };
+            let foreseen: f64 = squares - step.iter().zip(right).map(|(s, r)| s * r).sum::<f64>();
+            if rms(squares) > near && foreseen > falls_to * falls_to * squares {
+                break;
+            }
             let next = stepped(&surface, step);
             let next_squares = sum_of_squares(&next, &local);
             if next_squares < squares && finite(&next) {

@@ -102,7 +102,8 @@ impl Surface {
             Kind::Cylinder => self.about_axis(x).distance - self.a,
             Kind::Cone => {
                 let at = self.about_axis(x);
-                (at.distance - self.a) * self.b.cos() - at.height * self.b.sin()
+                let (sin, cos) = self.b.sin_cos();
+                (at.distance - self.a) * cos - at.height * sin
             }
             Kind::Torus => {
                 let at = self.about_axis(x);

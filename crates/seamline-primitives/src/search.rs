@@ -176,6 +176,20 @@ impl<'a> Search<'a> {
                 }
             }
         }
+        for (i, one) in stars.iter().enumerate() {
+            for other in &stars[..i] {
+                let mut pair = one.clone();
+                pair.extend(other.iter().filter(|p| !one.contains(p)));
+                for kind in [Kind::Cone, Kind::Torus] {
+                    let refuted = spoke[kind as usize - 1].iter().any(|&j| {
+                        j == i || stars[j] == *other
+                    });
+                    if !refuted && !self.settled(&best, kind) {
+                        self.attempt(seed, kind, &pair, &mut best);
+                    }
+                }
+            }
+        }
         for rings in [1, 2] {
             let ring = self.rings(seed, rings);
             let holds = |star: &[u32]| star.iter().all(|p| ring.contains(p));

@@ -2,8 +2,11 @@
 
 use std::collections::{BTreeMap, HashSet};
 
+use glam::DVec3;
+
 use crate::hypothesis::{Hypothesis, View};
 use crate::pieces::NONE;
+use crate::refine::refine_patiently;
 use crate::regions::Regions;
 use crate::surface::Kind;
 
@@ -11,20 +14,24 @@ use crate::surface::Kind;
 /// coarse sphere triangles meet at 60 degrees.
 const LONE_TRIANGLE_COS: f64 = 0.2;
 const PIECE_COS: f64 = 0.85;
+/// Most vertices a fit looks at.
+const MOST_POINTS: usize = 400;
 
-/// A flat piece whose vertices lie on a curved surface is of its tessellation if it is no coarser: the steps
-/// from it to the surface are at most so many times those of the others.
-const LIKE_THE_OTHERS: f64 = 1.25;
+/// A flat piece whose vertices lie on a curved surface is of its tessellation if it is no coarser: it is at most
+/// so many times as far from the surface in its midst as the others are.
+const LIKE_THE_OTHERS: f64 = 1.5;
 
 /// Are the pieces of a plane steps of a curved surface, and not a flat on it, as at the end of a ball?
 fn is_of_one_tessellation(view: View, curved: &Hypothesis, plane: &Hypothesis) -> bool {
-    let step = |pieces: &[u32]| view.greatest_step(&curved.surface, curved.sign, pieces);
-    step(&plane.pieces) <= LIKE_THE_OTHERS * step(&curved.pieces)
+    let sagitta = |pieces: &[u32]| view.sagitta(&curved.surface, pieces);
+    sagitta(&plane.pieces) <= LIKE_THE_OTHERS * sagitta(&curved.pieces)
 }
 
 /// Gives regions and unowned pieces that lie on the surface of a larger neighbour to it, over walls too.
 pub(crate) fn absorb(view: View, regions: &mut Regions, tolerance: f64) {
+    let mut fitted = Vec::new();
     for _ in 0..5 {
+        polish(view, regions, &mut fitted);
         let joined =
             absorb_regions(view, regions, tolerance) + absorb_pieces(view, regions, tolerance);
         if joined == 0 {
@@ -82,37 +89,53 @@ fn absorb_regions(view: View, regions: &mut Regions, tolerance: f64) -> usize {
     joined
 }
 
+/// Layer by layer, the unowned pieces beside regions; gives how many joined.
 fn absorb_pieces(view: View, regions: &mut Regions, tolerance: f64) -> usize {
-    let mut takers: Vec<(u32, u32)> = Vec::new();
-    for piece in 0..view.pieces.count() as u32 {
-        if regions.owner[piece as usize] != NONE || view.pieces.certain[piece as usize] {
+    let mut joined: BTreeMap<u32, Vec<u32>> = BTreeMap::new();
+    let mut layer: Vec<u32> = (0..view.pieces.count() as u32).collect();
+    while !layer.is_empty() {
+        let takers: Vec<(u32, u32)> = layer
+            .iter()
+            .filter_map(|&piece| Some((taker(view, regions, piece, tolerance)?, piece)))
+            .collect();
+        layer.clear();
+        for &(region, piece) in &takers {
+            regions.owner[piece as usize] = region;
+            joined.entry(region).or_default().push(piece);
+            let links = view.pieces.around.row(piece).iter();
+            layer.extend(links.map(|&link| view.pieces.links[link as usize].across(piece)));
+        }
+        layer.sort_unstable();
+        layer.dedup();
+    }
+    let count = joined.values().map(Vec::len).sum();
+    for (region, pieces) in joined {
+        join(view, regions, region, pieces);
+    }
+    count
+}
+
+/// The region with the longest common border among those on whose surface an unowned piece lies.
+fn taker(view: View, regions: &Regions, piece: u32, tolerance: f64) -> Option<u32> {
+    if regions.owner[piece as usize] != NONE || view.pieces.certain[piece as usize] {
+        return None;
+    }
+    let lone = view.pieces.faces.row(piece).len() == 1;
+    let cos = if lone { LONE_TRIANGLE_COS } else { PIECE_COS };
+    let mut best: Option<(f64, u32)> = None;
+    for &link in view.pieces.around.row(piece) {
+        let link = &view.pieces.links[link as usize];
+        let owner = regions.owner[link.across(piece) as usize];
+        if owner == NONE || best.is_some_and(|(length, _)| link.length <= length) {
             continue;
         }
-        let lone = view.pieces.faces.row(piece).len() == 1;
-        let cos = if lone { LONE_TRIANGLE_COS } else { PIECE_COS };
-        let mut best: Option<(f64, u32)> = None;
-        for &link in view.pieces.around.row(piece) {
-            let link = &view.pieces.links[link as usize];
-            let owner = regions.owner[link.across(piece) as usize];
-            if owner == NONE {
-                continue;
-            }
-            let Hypothesis { surface, sign, .. } = &regions.all[owner as usize];
-            let tolerance = reach(&regions.all[owner as usize], tolerance);
-            if view.fits_turned(piece, surface, *sign, tolerance, cos)
-                && best.is_none_or(|(length, _)| link.length > length)
-            {
-                best = Some((link.length, owner));
-            }
+        let region = &regions.all[owner as usize];
+        let tolerance = reach(region, tolerance);
+        if view.fits_turned(piece, &region.surface, region.sign, tolerance, cos) {
+            best = Some((link.length, owner));
         }
-        takers.extend(best.map(|(_, owner)| (owner, piece)));
     }
-    takers.sort_unstable();
-    for same in takers.chunk_by(|a, b| a.0 == b.0) {
-        let pieces = same.iter().map(|&(_, piece)| piece).collect();
-        join(view, regions, same[0].0, pieces);
-    }
-    takers.len()
+    best.map(|(_, owner)| owner)
 }
 
 fn join(view: View, regions: &mut Regions, region: u32, more: Vec<u32>) {
@@ -124,4 +147,26 @@ fn join(view: View, regions: &mut Regions, region: u32, more: Vec<u32>) {
     pieces.extend(more);
     debug_assert_eq!(pieces.iter().collect::<HashSet<_>>().len(), pieces.len());
     *own = view.weigh(own.surface, own.sign, pieces, own.tolerance);
+}
+
+/// Fits surfaces once more to all that lies on them, those that changed since they were fitted last: what was
+/// grown from a small neighbourhood errs far from it.
+fn polish(view: View, regions: &mut Regions, fitted: &mut Vec<usize>) {
+    fitted.resize(regions.all.len(), 0);
+    for region in regions.alive().collect::<Vec<_>>() {
+        let own = &regions.all[region as usize];
+        let now = own.pieces.len();
+        if own.surface.kind == Kind::Plane || std::mem::replace(&mut fitted[region as usize], now) == now {
+            continue;
+        }
+        let vertices = view.vertices_of(&own.pieces);
+        let few = vertices.iter().step_by(vertices.len().div_ceil(MOST_POINTS));
+        let points: Vec<DVec3> = few.map(|&v| view.positions[v as usize]).collect();
+        if let Some(fit) = refine_patiently(own.surface, &points, 0.0) {
+            let better = view.weigh(fit.surface, own.sign, own.pieces.clone(), own.tolerance);
+            if better.exact && better.rms <= own.rms {
+                regions.all[region as usize] = better;
+            }
+        }
+    }
 }

@@ -18,6 +18,8 @@ pub(crate) struct Hypothesis {
     pub tolerance: f64,
     /// Distinct vertices less degrees of freedom.
     pub evidence: i64,
+    /// Root mean square distance of its vertices.
+    pub rms: f64,
     /// Do its vertices lie on it as exactly as they are stored? A free form comes near many surfaces, and
     /// grows until the tolerance ends it; hardly one leaves its vertices at the precision of their numbers.
     pub exact: bool,
@@ -68,16 +70,12 @@ impl View<'_> {
                 .all(|&v| surface.distance(self.positions[v as usize]).abs() <= tolerance)
     }
 
-    /// Greatest angle between a surface's normal at the vertices of pieces on it and the pieces' own, in radians.
-    pub fn greatest_step(&self, surface: &Surface, sign: f64, pieces: &[u32]) -> f64 {
-        let at = |&piece: &u32| {
-            let normal = self.pieces.normals[piece as usize];
-            let vertices = self.pieces.vertices.row(piece).iter();
-            vertices
-                .map(|&v| sign * surface.gradient(self.positions[v as usize]).dot(normal))
-                .fold(1.0, f64::min)
-        };
-        pieces.iter().map(at).fold(1.0, f64::min).max(-1.0).acos()
+    /// Greatest distance of pieces' faces, at their centroids, from the surface their vertices lie on.
+    pub fn sagitta(&self, surface: &Surface, pieces: &[u32]) -> f64 {
+        let faces = pieces.iter().flat_map(|&p| self.pieces.faces.row(p));
+        faces
+            .map(|&f| surface.distance(self.triangles.centroids[f as usize]).abs())
+            .fold(0.0, f64::max)
     }
 
     /// Do the vertices of a piece lie in the plane of its centroid and normal?
@@ -126,6 +124,7 @@ impl View<'_> {
             };
         let rms = (squares / points.len() as f64).sqrt();
         Hypothesis {
+            rms,
             exact: rms <= self.precision,
             strong,
             surface,

@@ -112,7 +112,7 @@ pub struct Found {
 /// precision is coarser far from the origin.
 pub fn find(positions: &[DVec3], topology: &Topology, farthest: f64) -> Found {
     let (centre, diagonal) = frame(positions, topology);
-    let precision = PRECISION.max(ROUNDING * farthest / diagonal);
+    let precision = PRECISION.hypot(ROUNDING * farthest / diagonal);
     let ladder = LADDER.map(|tolerance| tolerance.max(6.0 * precision));
     let scaled: Vec<DVec3> = positions.iter().map(|&x| (x - centre) / diagonal).collect();
     let triangles = Triangles::of(&scaled, &topology.triangles);

@@ -28,10 +28,16 @@ const MOST_TRIPLES: usize = 12;
 /// After so many seeds in vain one more piece about each further one is none: a large free form takes as many
 /// seeds as the root of its pieces.
 const IN_A_ROW: usize = 32;
+/// Pieces whose areas differ by more than this factor say nothing of each other.
+const ALIKE: f64 = 3.0;
 /// Pieces of a strip.
 const STRIP: usize = 8;
 /// Most vertices a fit looks at; more do not make it better.
 const MOST_POINTS: usize = 400;
+/// Fewest pieces of a surface that only comes near for others to be tried on them.
+const NEAR_PIECES: usize = 6;
+/// Most times a surface is fitted again as it grows.
+const MOST_ROUNDS: usize = 40;
 /// A grown surface is fitted once more, to this share of the tolerance.
 const FINAL_SHARE: f64 = 0.1;
 /// How much farther from the surface pieces may lie that a fit is tried on.
@@ -98,8 +104,12 @@ impl<'a> Search<'a> {
         let mut failed = vec![false; pieces.count()];
         let mut in_a_row = 0;
         for seed in seeds {
-            // Beside a seed that was in vain another rarely is not, and free forms are all such.
-            let in_vain = self.neighbours(seed).any(|p| failed[p as usize]);
+            // Beside a seed that was in vain another of its size rarely is not, and free forms are all such.
+            let alike = |p: u32| {
+                let ratio = area(&p) / area(&seed);
+                (1.0 / ALIKE..=ALIKE).contains(&ratio)
+            };
+            let in_vain = self.neighbours(seed).any(|p| failed[p as usize] && alike(p));
             if covered[seed as usize] || in_vain {
                 continue;
             }
@@ -205,7 +215,23 @@ impl<'a> Search<'a> {
                 }
             }
         }
+        self.on_what_came_near(seed, &mut best);
         best.into_iter().flatten().collect()
+    }
+
+    /// A torus looks like a cylinder nearby, and a cone like one too: where a surface only came near, those of more
+    /// freedom are tried on all it took in.
+    fn on_what_came_near(&mut self, seed: u32, best: &mut [Option<Hypothesis>; 4]) {
+        let proved = |h: &Hypothesis| h.strong && h.exact;
+        if best.iter().flatten().any(proved) {
+            return;
+        }
+        let near: Vec<Vec<u32>> = best.iter().flatten().map(|h| h.pieces.clone()).collect();
+        for around in near.iter().filter(|pieces| pieces.len() >= NEAR_PIECES) {
+            for kind in [Kind::Cone, Kind::Torus] {
+                self.attempt(seed, kind, around, best);
+            }
+        }
     }
 
     /// Tries the discs about a seed, the largest first. True if one proved to be of a surface, so that smaller
@@ -284,12 +310,35 @@ impl<'a> Search<'a> {
         let points = self.few(&vertices);
         let pick =
             |of: &[DVec3]| -> Vec<DVec3> { around.iter().map(|&p| of[p as usize]).collect() };
-        let neighbourhood = Neighbourhood {
-            normals: &pick(&self.view.pieces.normals),
-            centroids: &pick(&self.view.pieces.centroids),
-            points: &points,
-        };
-        for guess in guesses(kind, &neighbourhood) {
+        let normals = pick(&self.view.pieces.normals);
+        let centroids = pick(&self.view.pieces.centroids);
+        let mut first = guesses(
+            kind,
+            &Neighbourhood {
+                normals: &normals,
+                centroids: &centroids,
+                points: &points,
+            },
+        );
+        if matches!(kind, Kind::Cylinder | Kind::Cone) && around.len() == STRIP {
+            // Triangles to and fro between two rims lean one way and the other, two together neither way.
+            let pairs = |of: &[DVec3]| -> Vec<DVec3> {
+                of.windows(2).map(|two| (two[0] + two[1]) / 2.0).collect()
+            };
+            let normals: Vec<DVec3> = pairs(&normals)
+                .into_iter()
+                .map(DVec3::normalize_or_zero)
+                .collect();
+            first.extend(guesses(
+                kind,
+                &Neighbourhood {
+                    normals: &normals,
+                    centroids: &pairs(&centroids),
+                    points: &points,
+                },
+            ));
+        }
+        for guess in first {
             let Some(fit) = refine(guess, &points, self.tolerance) else {
                 continue;
             };
@@ -333,7 +382,7 @@ impl<'a> Search<'a> {
         let sign = gradient.dot(normal).signum();
         let mut fitted = fitted;
         let mut region = self.flood(seed, &surface, sign, self.tolerance, usize::MAX)?;
-        for _ in 0..40 {
+        for _ in 0..MOST_ROUNDS {
             // Small regions determine little of what lies beyond: a wider look, believed only once the fit to
             // all of it is exact again.
             let wider = if region.len() < 2 * fitted {
@@ -342,27 +391,32 @@ impl<'a> Search<'a> {
             } else {
                 region.clone()
             };
-            if wider.len() <= fitted {
+            let look = [wider, region.clone()];
+            let mut grown = false;
+            for (among, goal) in look.into_iter().zip([1.0, FINAL_SHARE]) {
+                let points = self.few(&self.view.vertices_of(&among));
+                let Some(fit) = refine(surface, &points, goal * self.tolerance) else {
+                    continue;
+                };
+                if fit.rms > self.tolerance {
+                    continue;
+                }
+                let next = self.flood(seed, &fit.surface, sign, self.tolerance, usize::MAX);
+                if let Some(next) = next
+                    && next.len() >= region.len()
+                {
+                    surface = fit.surface;
+                    grown = next.len() > region.len();
+                    region = next;
+                    fitted = among.len();
+                }
+                if grown {
+                    break;
+                }
+            }
+            if !grown {
                 break;
             }
-            let points = self.few(&self.view.vertices_of(&wider));
-            let fit = refine(surface, &points, self.tolerance)?;
-            if fit.rms > self.tolerance {
-                break;
-            }
-            let next = self.flood(seed, &fit.surface, sign, self.tolerance, usize::MAX)?;
-            if next.len() <= region.len() {
-                break;
-            }
-            fitted = wider.len();
-            surface = fit.surface;
-            region = next;
-        }
-        let points = self.few(&self.view.vertices_of(&region));
-        if let Some(fit) = refine(surface, &points, FINAL_SHARE * self.tolerance)
-            && fit.rms <= self.tolerance
-        {
-            surface = fit.surface;
         }
         let hypothesis = self.view.weigh(surface, sign, region, self.tolerance);
         (hypothesis.evidence >= 1).then_some(hypothesis)

@@ -29,9 +29,7 @@ pub(crate) fn trusted(view: View, topology: &Topology, regions: &Regions) -> Vec
     let mut trusted = vec![false; regions.all.len()];
     loop {
         while spread(view, topology, regions, &mut trusted) {}
-        if !trust_the_largest(view, regions, &mut trusted) {
-            return trusted;
-        }
+        return trusted;
     }
 }
 
@@ -56,7 +54,10 @@ fn is_natural(
 ) -> bool {
     let own = &regions.all[region as usize];
     let exact = own.strong && own.exact && own.evidence >= ENOUGH_IF_EXACT;
-    if own.surface.kind == Kind::Plane || exact || own.evidence >= BEYOND_DOUBT {
+    if own.surface.kind == Kind::Plane || exact {
+        return true;
+    }
+    if own.strong && own.evidence >= LARGE && ends_abruptly(view, regions, region) {
         return true;
     }
     let [mut walls, mut natural, mut whole] = [0.0; 3];
@@ -100,6 +101,40 @@ fn is_natural(
         NATURAL_SHARE
     };
     share >= least
+}
+
+/// Evidence from which an abrupt end is asked of a surface: a small one has hardly begun to leave it.
+const LARGE: i64 = 100;
+/// Share of its border along which a surface ends abruptly, if it is one.
+const ABRUPT_SHARE: f64 = 0.75;
+/// What lies beside the end of a surface lies at least so many tolerances off it.
+const ABRUPT: f64 = 25.0;
+
+/// Does a region that only comes near its surface end as surfaces do? A true one ends at walls, or where the
+/// next piece lies far off it; a free form leaves the surface it came near by and by.
+fn ends_abruptly(view: View, regions: &Regions, region: u32) -> bool {
+    let own = &regions.all[region as usize];
+    let [mut abrupt, mut whole] = [0.0; 2];
+    for &piece in &own.pieces {
+        for &link in view.pieces.around.row(piece) {
+            let at = &view.pieces.links[link as usize];
+            let across = at.across(piece);
+            if regions.owner[across as usize] == region {
+                continue;
+            }
+            whole += at.length;
+            let farthest = || {
+                let vertices = view.pieces.vertices.row(across).iter();
+                vertices
+                    .map(|&v| own.surface.distance(view.positions[v as usize]).abs())
+                    .fold(0.0, f64::max)
+            };
+            if at.wall || farthest() >= ABRUPT * own.tolerance {
+                abrupt += at.length;
+            }
+        }
+    }
+    abrupt >= ABRUPT_SHARE * whole
 }
 
 /// In each connected component of what is not trusted, the largest region, if it is large enough.

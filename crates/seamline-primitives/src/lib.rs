@@ -325,7 +325,7 @@ fn step(view: View, topology: &Topology, regions: &mut Regions, rung: usize, tol
     let open: Vec<bool> = (0..view.pieces.count())
         .map(|p| regions.owner[p] == NONE)
         .collect();
-    let found = Search::new(view, &open, tolerance).run();
+    let found = Search::new(view, &open, rung, tolerance).run();
     let least = |kind: Kind| match (rung, kind) {
         (0, _) => 1,
         (1, Kind::Cylinder) => 8,

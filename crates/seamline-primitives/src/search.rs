@@ -28,6 +28,9 @@ const MOST_TRIPLES: usize = 12;
 /// After so many seeds in vain one more piece about each further one is none: a large free form takes as many
 /// seeds as the root of its pieces.
 const IN_A_ROW: usize = 32;
+/// A surface looked for on a looser rung has many pieces, so that some seeds among them suffice: about so many
+/// for all that is open.
+const SEEDS: [usize; 3] = [usize::MAX, 1000, 300];
 /// Pieces whose areas differ by more than this factor say nothing of each other.
 const ALIKE: f64 = 3.0;
 /// Pieces of a strip.
@@ -68,6 +71,7 @@ impl Marks {
 /// Finds hypotheses on the pieces that may take part.
 pub(crate) struct Search<'a> {
     view: View<'a>,
+    rung: usize,
     tolerance: f64,
     /// May a piece take part?
     open: &'a [bool],
@@ -79,9 +83,10 @@ pub(crate) struct Search<'a> {
 }
 
 impl<'a> Search<'a> {
-    pub fn new(view: View<'a>, open: &'a [bool], tolerance: f64) -> Self {
+    pub fn new(view: View<'a>, open: &'a [bool], rung: usize, tolerance: f64) -> Self {
         Self {
             view,
+            rung,
             tolerance,
             open,
             marks: Marks::default(),
@@ -103,6 +108,7 @@ impl<'a> Search<'a> {
         let mut found = Vec::new();
         let mut failed = vec![false; pieces.count()];
         let mut in_a_row = 0;
+        let least = 1 + seeds.len() / SEEDS[self.rung];
         for seed in seeds {
             // Beside a seed that was in vain another of its size rarely is not, and free forms are all such.
             let alike = |p: u32| {
@@ -118,7 +124,7 @@ impl<'a> Search<'a> {
                 in_a_row /= 2;
             } else {
                 in_a_row += 1;
-                self.mark_about(seed, 1 + in_a_row / IN_A_ROW, &mut failed);
+                self.mark_about(seed, least + in_a_row / IN_A_ROW, &mut failed);
             }
             for hypothesis in hypotheses {
                 if hypothesis.strong && hypothesis.pieces.len() >= COVERS {
@@ -163,7 +169,13 @@ impl<'a> Search<'a> {
         if self.on_discs(seed, &mut best) {
             return best.into_iter().flatten().collect();
         }
-        for triple in self.triples(seed) {
+        // At loose tolerances few pieces are on any surface.
+        let triples = if self.rung < 2 {
+            self.triples(seed)
+        } else {
+            Vec::new()
+        };
+        for triple in triples {
             for kind in [Kind::Cylinder, Kind::Cone] {
                 if self.settled(&best, kind) {
                     continue;

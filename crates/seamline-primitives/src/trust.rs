@@ -1,17 +1,14 @@
 //! Natural borders: a false surface fits as exactly as a true one; it differs in where it ends.
 
-use std::collections::HashSet;
-
-use seamline_mesh::{Sets, Topology};
+use seamline_mesh::Topology;
 
 use crate::hypothesis::View;
 use crate::pieces::NONE;
 use crate::regions::{Ending, Regions};
 use crate::surface::Kind;
 
-/// Evidence from which no border is asked: of a surface its vertices lie on exactly, and of one they come near.
+/// Evidence from which no border is asked of a surface its vertices lie on exactly.
 const ENOUGH_IF_EXACT: i64 = 5;
-const BEYOND_DOUBT: i64 = 1000;
 /// Evidence below which walls do not count: each tile of a narrow band between two walls has walls on most of
 /// its border.
 const SMALL: i64 = 25;
@@ -19,18 +16,12 @@ const SMALL: i64 = 25;
 const TINY: i64 = 8;
 const NATURAL_SHARE: f64 = 0.5;
 const NATURAL_SHARE_OF_TINY: f64 = 0.9;
-/// The largest region of a component of doubtful ones is trusted from this share of its area on: a bent wire
-/// has only borders that doubt each other.
-const LARGEST_SHARE: f64 = 0.3;
-const LARGEST_EVIDENCE: i64 = 30;
 
 /// Which regions can be trusted, one a region.
 pub(crate) fn trusted(view: View, topology: &Topology, regions: &Regions) -> Vec<bool> {
     let mut trusted = vec![false; regions.all.len()];
-    loop {
-        while spread(view, topology, regions, &mut trusted) {}
-        return trusted;
-    }
+    while spread(view, topology, regions, &mut trusted) {}
+    trusted
 }
 
 /// One round over the regions not yet trusted. True if any was.
@@ -135,44 +126,4 @@ fn ends_abruptly(view: View, regions: &Regions, region: u32) -> bool {
         }
     }
     abrupt >= ABRUPT_SHARE * whole
-}
-
-/// In each connected component of what is not trusted, the largest region, if it is large enough.
-fn trust_the_largest(view: View, regions: &Regions, trusted: &mut [bool]) -> bool {
-    let doubtful = |piece: u32| {
-        let owner = regions.owner[piece as usize];
-        if owner == NONE {
-            !view.pieces.certain[piece as usize]
-        } else {
-            !trusted[owner as usize]
-        }
-    };
-    let mut sets = Sets::new(view.pieces.count());
-    for link in view.pieces.links.iter().filter(|link| !link.wall) {
-        let [a, b] = link.pieces;
-        if doubtful(a) && doubtful(b) {
-            sets.unite(a, b);
-        }
-    }
-    let mut areas = vec![0.0; view.pieces.count()];
-    for piece in (0..view.pieces.count() as u32).filter(|&p| doubtful(p)) {
-        areas[sets.first(piece) as usize] += view.pieces.areas[piece as usize];
-    }
-    let mut candidates: Vec<(u32, f64, u32)> = Vec::new();
-    for region in regions.alive().filter(|&r| !trusted[r as usize]) {
-        let own = &regions.all[region as usize];
-        let set = sets.first(own.pieces[0]);
-        let area = view.area(&own.pieces);
-        if own.evidence >= LARGEST_EVIDENCE && area >= LARGEST_SHARE * areas[set as usize] {
-            candidates.push((set, area, region));
-        }
-    }
-    candidates.sort_by(|a, b| b.1.total_cmp(&a.1));
-    let mut done = HashSet::new();
-    for &(set, _, region) in &candidates {
-        if done.insert(set) {
-            trusted[region as usize] = true;
-        }
-    }
-    !candidates.is_empty()
 }

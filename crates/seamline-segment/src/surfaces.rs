@@ -20,8 +20,7 @@ use crate::grow::{Grown, mean_curvatures};
 #[derive(Resource, Clone, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SurfaceSettings {
-    /// Are surfaces looked for? Curvature must lie on facets. Off by default, though patches are far better with
-    /// it: on some symmetric coarse parts the result depends on how the part lies, and memory is not yet estimated.
+    /// Are surfaces looked for? Curvature must lie on facets.
     pub enabled: bool,
     /// Share of the area that must lie exactly on surfaces for the patches to follow from them; below it
     /// (noise, scans, natural shapes) curvature leads. The least of any CAD export measured is .06, a
@@ -32,9 +31,9 @@ pub struct SurfaceSettings {
 impl StepSettings for SurfaceSettings {
     const TABLE: &'static str = "surfaces";
 
-    fn defaults(_: Profile) -> Self {
+    fn defaults(profile: Profile) -> Self {
         Self {
-            enabled: false,
+            enabled: profile == Profile::Cad,
             least_exact_share: 0.05,
         }
     }

@@ -149,12 +149,8 @@ impl Bare {
             None,
         );
         let barely_curved = FacetSettings::defaults(Profile::Cad).barely_curved;
-        let (number, _) = reduce(
-            graph,
-            &MergeSettings::defaults(Profile::Cad),
-            barely_curved,
-            None,
-        );
+        let settings = MergeSettings::defaults(Profile::Cad);
+        let number = reduce(graph, &settings, barely_curved, None).number;
         for label in &mut self.labels {
             label.0 = number[label.0 as usize];
         }

@@ -125,10 +125,7 @@ impl Row {
 /// By the clock, in the two stages that plugins fill.
 pub fn plugin_seconds(cut: &Segmentation) -> [f64; 2] {
     ["classify", "rectify"].map(|name| {
-        let record = cut
-            .stages
-            .iter()
-            .find(|record| record.stage.name() == name);
+        let record = cut.stages.iter().find(|record| record.stage.name() == name);
         record.expect("all stages are told").seconds
     })
 }

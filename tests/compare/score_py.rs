@@ -108,6 +108,7 @@ fn write(folder: &Path, models: &[Model], labels: &[Vec<u32>]) {
 
 /// The settings of a row as the name of a folder.
 fn plain(row: &str) -> String {
+    let row = if row.is_empty() { "defaults" } else { row };
     row.chars()
         .map(|c| match c {
             'a'..='z' | '0'..='9' | '.' | '-' | '_' | '=' => c,

@@ -102,8 +102,13 @@ fn choices() -> Vec<Choice> {
                 others: Vec::new(),
             });
         }
-        let others = [less, more].map(|value| (format!("`{key} = {value}`"), tuned(plugin, key, value)));
-        choices.last_mut().expect("just pushed").others.extend(others);
+        let others =
+            [less, more].map(|value| (format!("`{key} = {value}`"), tuned(plugin, key, value)));
+        choices
+            .last_mut()
+            .expect("just pushed")
+            .others
+            .extend(others);
     }
     for (profile, thresholds, _) in THRESHOLDS {
         let others = thresholds.map(|value| (value.to_owned(), merging(profile, value)));
@@ -121,8 +126,12 @@ fn choices() -> Vec<Choice> {
 
 /// Fandisk, which has no truth: how many patches, and how long their boundaries are.
 fn fandisk(mesh: &Arc<Mesh>) {
-    println!("\n### Fandisk: patches, length of all boundaries in longest sides of its box, and ms in the two stages\n");
-    println!("| | `cad` | classify, rectify ms | `lavoue2005` | classify, rectify ms |\n|---|---|---|---|---|");
+    println!(
+        "\n### Fandisk: patches, length of all boundaries in longest sides of its box, and ms in the two stages\n"
+    );
+    println!(
+        "| | `cad` | classify, rectify ms | `lavoue2005` | classify, rectify ms |\n|---|---|---|---|---|"
+    );
     for (classifier, rectifier) in pairs() {
         let cells = ["cad", "lavoue2005"].map(|profile| {
             let (cut, length) = cut(mesh, &settings(profile, classifier, rectifier));

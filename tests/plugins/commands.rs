@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 use seamline_ecs::{Segmentation, StageError, Worker};
 use seamline_mesh::{Mesh, shapes, weld};
 use seamline_tests::daemon::{Home, cuboid};
-use seamline_tests::{bench, pipeline, run, seamline};
+use seamline_tests::{pipeline, run, seamline};
 use std::sync::Arc;
 
 const FICKLE: &str = env!("CARGO_BIN_EXE_fickle_plugin");
@@ -161,6 +161,33 @@ fn wrong_settings_of_a_command_are_wrong_use_and_name_their_key() {
 }
 
 #[test]
+fn a_program_is_chosen_on_the_command_line_and_one_that_is_no_plugin_is_told_how() {
+    let home = Home::new();
+    let mesh = home.drop("part.obj", cuboid(1.0));
+    let segment = |stage: &str, choice: &str| {
+        let mut segment = seamline();
+        segment
+            .args(["segment", "--json", "-o"])
+            .arg(home.at("out"));
+        run(segment.arg(&mesh).args([stage, choice]))
+    };
+    for (stage, key, manner) in [
+        ("--classifier", "classifier", "good"),
+        ("--rectifier", "rectifier", "all"),
+    ] {
+        let report = segment(stage, &format!("{{ command = ['{FICKLE}', '{manner}'] }}")).json();
+        assert_eq!(report["settings"]["pipeline"][key]["command"][1], manner);
+    }
+    let told = segment("--classifier", "./mine.py").ended(2);
+    assert!(
+        told.err
+            .contains("{ command = [\"program\", \"argument\"] }"),
+        "{}",
+        told.err
+    );
+}
+
+#[test]
 fn in_the_daemon_each_fault_is_one_job_in_quarantine_and_the_others_go_on() {
     let home = Home::with(&format!(
         "stable_for_ms = 100\n[[rules]]\nfiles = ['bad*']\nclassifier = {{ command = ['{FICKLE}', 'garbage'] }}\n\
@@ -193,7 +220,6 @@ fn in_the_daemon_each_fault_is_one_job_in_quarantine_and_the_others_go_on() {
 #[test]
 #[ignore = "takes a minute"]
 fn overhead_on_a_million_vertices() {
-    let _ = bench("models");
     let mesh = Arc::new(weld(shapes::torus(2.0, 0.5, 2000, 500).polygons(), 0.0));
     println!(
         "{} vertices, {} triangles",

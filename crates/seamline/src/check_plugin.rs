@@ -56,6 +56,7 @@ fn choice(args: &CheckPluginArgs, registry: &Registry) -> Result<(SwappableStage
     }
     let command = CommandSettings {
         timeout_s: args.timeout_s,
+        send: args.send.clone(),
         ..CommandSettings::new(args.what.clone())
     };
     Ok((stage_named(&args.stage)?, PluginChoice::Command(command)))

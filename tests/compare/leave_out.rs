@@ -7,7 +7,7 @@ use crate::row::{Compared, cells};
 
 /// The default, and what else could have been chosen, each as settings.
 pub struct Choice {
-    pub of: &'static str,
+    pub of: String,
     pub default: Vec<String>,
     pub others: Vec<(String, Vec<String>)>,
 }

@@ -95,9 +95,10 @@ fn tuned(plugin: &str, key: &str, value: &str) -> Vec<String> {
 fn choices() -> Vec<Choice> {
     let mut choices: Vec<Choice> = Vec::new();
     for (plugin, key, [less, default, more]) in SETTINGS {
-        if choices.last().is_none_or(|last| last.of != plugin) {
+        let of = format!("`{plugin}`");
+        if choices.last().is_none_or(|last| last.of != of) {
             choices.push(Choice {
-                of: plugin,
+                of,
                 default: tuned(plugin, key, default),
                 others: Vec::new(),
             });
@@ -111,12 +112,9 @@ fn choices() -> Vec<Choice> {
             .extend(others);
     }
     for (profile, thresholds, _) in THRESHOLDS {
-        let others = thresholds.map(|value| (value.to_owned(), merging(profile, value)));
+        let others = thresholds.map(|value| (format!("`{value}`"), merging(profile, value)));
         choices.push(Choice {
-            of: match profile {
-                "cad" => "`auto`, `cad`",
-                _ => "`auto`, `lavoue2005`",
-            },
+            of: format!("`merge.threshold = \"auto\"`, `{profile}`"),
             default: merging(profile, "auto"),
             others: others.into(),
         });

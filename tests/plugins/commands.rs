@@ -188,6 +188,23 @@ fn a_program_is_chosen_on_the_command_line_and_one_that_is_no_plugin_is_told_how
 }
 
 #[test]
+fn what_a_program_says_is_shown_to_who_asks_for_it() {
+    let home = Home::new();
+    let mesh = home.drop("part.obj", cuboid(1.0));
+    let good = format!("{{ command = ['{FICKLE}', 'good'] }}");
+    let segment = |more: &[&str]| {
+        let mut segment = seamline();
+        segment.args(["segment", "--classifier", &good, "-o"]);
+        run(segment.arg(home.at("out")).arg(&mesh).args(more)).ended(0)
+    };
+    assert!(!segment(&[]).err.contains("rows to look at"));
+    assert!(segment(&["-v"]).err.contains("rows to look at"));
+    let check = run(seamline().args(["plugins", "check", FICKLE, "good"])).ended(0);
+    assert!(check.err.contains("rows to look at"), "{}", check.err);
+    assert!(!check.out.contains("rows to look at"), "{}", check.out);
+}
+
+#[test]
 fn in_the_daemon_each_fault_is_one_job_in_quarantine_and_the_others_go_on() {
     let home = Home::with(&format!(
         "stable_for_ms = 100\n[[rules]]\nfiles = ['bad*']\nclassifier = {{ command = ['{FICKLE}', 'garbage'] }}\n\

@@ -7,13 +7,15 @@ use crate::row::{Compared, cells};
 
 /// The default, and what else could have been chosen, each as settings.
 pub struct Choice {
+    /// May the default itself be chosen? If not, it is held against the best of the others.
+    pub default_takes_part: bool,
     pub of: String,
     pub default: Vec<String>,
     pub others: Vec<(String, Vec<String>)>,
 }
 
 /// What settings are chosen by: the mean of the three measures.
-pub fn worth(mean: &Agreement) -> f64 {
+fn worth(mean: &Agreement) -> f64 {
     (mean.ari + mean.boundary_f1 + mean.exact) / 3.0
 }
 
@@ -41,8 +43,12 @@ pub fn print(compared: &mut Compared, choices: &[Choice]) {
             .collect();
         for chosen_on in [0, 1] {
             let here = |model: usize| half[model] == chosen_on;
-            // Of equals the default, which comes first.
-            let mut best = ("the default", &default);
+            // Of equals the first, so that the default stays where it is one of them.
+            let mut best = if choice.default_takes_part {
+                ("the default", &default)
+            } else {
+                (others[0].0, &others[0].1)
+            };
             for (name, row) in &others {
                 if worth(&row.mean(here)) > worth(&best.1.mean(here)) {
                     best = (name, row);

@@ -98,6 +98,7 @@ fn choices() -> Vec<Choice> {
         let of = format!("`{plugin}`");
         if choices.last().is_none_or(|last| last.of != of) {
             choices.push(Choice {
+                default_takes_part: true,
                 of,
                 default: tuned(plugin, key, default),
                 others: Vec::new(),
@@ -114,6 +115,7 @@ fn choices() -> Vec<Choice> {
     for (profile, thresholds, _) in THRESHOLDS {
         let others = thresholds.map(|value| (format!("`{value}`"), merging(profile, value)));
         choices.push(Choice {
+            default_takes_part: false,
             of: format!("`merge.threshold = \"auto\"`, `{profile}`"),
             default: merging(profile, "auto"),
             others: others.into(),

@@ -2,7 +2,7 @@
 
 use std::time::{Duration, Instant};
 
-use seamline_ecs::{Segmentation, StageError, Worker};
+use seamline_ecs::{Segmentation, Stage, StageError, Worker};
 use seamline_mesh::{Mesh, shapes, weld};
 use seamline_tests::daemon::{Home, cuboid};
 use seamline_tests::{pipeline, run, seamline};
@@ -235,7 +235,7 @@ fn in_the_daemon_each_fault_is_one_job_in_quarantine_and_the_others_go_on() {
 /// The command that prints what a program costs beside its own work:
 /// `cargo test --release -p seamline-tests --test plugins overhead -- --ignored --nocapture`.
 #[test]
-#[ignore = "takes a minute"]
+#[ignore = "takes some minutes"]
 fn overhead_on_a_million_vertices() {
     let mesh = Arc::new(weld(shapes::torus(2.0, 0.5, 2000, 500).polygons(), 0.0));
     println!(
@@ -243,29 +243,28 @@ fn overhead_on_a_million_vertices() {
         mesh.positions().len(),
         mesh.triangles.len()
     );
-    let seconds = |settings: &[&str]| {
-        let mut worker = Worker::new(pipeline(settings));
-        worker.segment(Arc::clone(&mesh)).unwrap();
-        let mut times: Vec<f64> = (0..5)
-            .map(|_| {
-                let cut = worker.segment(Arc::clone(&mesh)).unwrap();
-                cut.stages
-                    .iter()
-                    .find(|s| s.stage.name() == "classify")
-                    .unwrap()
-                    .seconds
-            })
-            .collect();
-        times.sort_by(f64::total_cmp);
-        times[2]
+    let on_vertices = ["curvature.carrier=vertices", "sharp.enrich=false"];
+    let worker = |classifier: &str| {
+        let given = [on_vertices[0], on_vertices[1], classifier];
+        Worker::new(pipeline(&given))
     };
-    let vertices = "curvature.carrier=vertices";
-    let built_in = seconds(&[vertices, "sharp.enrich=false"]);
-    let samples = seconds(&[
-        vertices,
-        "sharp.enrich=false",
-        &classifier("good", ", send = ['samples']"),
-    ]);
-    let all = seconds(&[vertices, "sharp.enrich=false", &classifier("good", "")]);
+    let mut workers = [
+        worker("pipeline.classifier=kmeans"),
+        worker(&classifier("good", ", send = ['samples']")),
+        worker(&classifier("good", "")),
+    ];
+    // In turn, so that whatever else the machine does is shared; the first round starts the programs.
+    let mut seconds = [const { Vec::new() }; 3];
+    for _ in 0..6 {
+        for (worker, seconds) in workers.iter_mut().zip(&mut seconds) {
+            let cut = worker.segment(Arc::clone(&mesh)).unwrap();
+            seconds.push(cut.stages[Stage::Classify as usize].seconds);
+        }
+    }
+    let [built_in, samples, all] = seconds.map(|mut seconds| {
+        seconds.remove(0);
+        seconds.sort_by(f64::total_cmp);
+        seconds[2]
+    });
     println!("kmeans {built_in:.3} s; command, samples only {samples:.3} s; all tables {all:.3} s");
 }

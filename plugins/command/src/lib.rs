@@ -34,8 +34,8 @@
 //! started, ends before it has answered, says nothing for `timeout_s`, or answers with what is no Arrow stream,
 //! has other columns, has gaps, or is of the wrong length.
 //!
-//! **What it costs.** On a million vertices OVERHEAD; a process is started once, not for each mesh. The README of
-//! `plugins/` has the command that measures it.
+//! **What it costs.** On a million vertices 0.39 s where `samples` alone is sent and 0.94 s with all tables, measured on a
+//! busy machine; a process is started once, not for each mesh. The README of `plugins/` has the command.
 
 mod answer;
 mod crew;

@@ -10,7 +10,7 @@ use rayon::{ThreadPool, ThreadPoolBuilder};
 use seamline_mesh::Mesh;
 use thiserror::Error;
 
-use crate::job::{Counts, InputMesh, JobFailure, MeshTopology};
+use crate::job::{Counts, InputMesh, JobFailure, Measures, MeshTopology};
 use crate::pipeline::Pipeline;
 use crate::results::{Segmentation, StageRecord};
 use crate::stage::Stage;
@@ -103,6 +103,7 @@ impl Worker {
         self.world.insert_resource(InputMesh(mesh));
         self.world.insert_resource(JobFailure::default());
         self.world.resource_mut::<Counts>().clear();
+        self.world.resource_mut::<Measures>().clear();
         let clock = StageClock {
             last: Instant::now(),
             seconds: [0.0; Stage::ALL.len()],
@@ -142,12 +143,14 @@ impl Worker {
             hint: "the pipeline lacks its built-in steps".to_owned(),
         })?;
         let counts = self.world.resource::<Counts>();
+        let measures = self.world.resource::<Measures>();
         segmentation.stages = Stage::ALL
             .into_iter()
             .map(|stage| StageRecord {
                 stage,
                 seconds: clock.seconds[stage as usize],
                 counts: counts.of(stage).collect(),
+                measures: measures.of(stage).collect(),
             })
             .collect();
         Ok(segmentation)
@@ -159,6 +162,7 @@ fn fresh(pipeline: &Pipeline, progress: &Progress) -> (World, Schedule) {
     world.insert_resource(progress.clone());
     world.init_resource::<MeshTopology>();
     world.init_resource::<Counts>();
+    world.init_resource::<Measures>();
 
     let mut schedule = Schedule::default();
     schedule.set_executor(SingleThreadedExecutor::new());

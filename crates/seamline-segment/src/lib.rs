@@ -43,7 +43,7 @@ pub use facets::{FacetSettings, Facets, facet_feature, filter_curvatures, find_f
 pub use grow::{Grown, grow_facets, grow_pure_triangles};
 pub use import::{Laid, MeshSettings, ScaleBy, lay_out};
 pub use merge::{MergeSettings, RegionDistance};
-pub use reduction::reduce;
+pub use reduction::{Reduced, reduce};
 pub use region_graph::{Link, Merged, RegionGraph};
 pub use score::{ScoreSettings, angle_score, curvature_score, facet_scores, vertex_scores};
 pub use sharp::{SharpSettings, dihedral_angles, sharp_edges, sharp_vertices};

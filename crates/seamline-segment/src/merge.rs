@@ -6,7 +6,7 @@ use schemars::JsonSchema;
 use seamline_ecs::components::*;
 use seamline_ecs::rows::{self, Regions};
 use seamline_ecs::settings::{OutOfRange, Profile, StepSettings};
-use seamline_ecs::{Column, ColumnMut, Counts, MeshTopology, Stage, StageSystems};
+use seamline_ecs::{Column, ColumnMut, Counts, Measures, MeshTopology, Stage, StageSystems};
 use serde::{Deserialize, Serialize};
 
 use crate::facets::FacetSettings;
@@ -109,6 +109,7 @@ fn merge_regions(
     curvatures: Column<VertexCurvature>,
     regions: Column<Region>,
     mut labels: ColumnMut<FaceLabel>,
+    mut measures: ResMut<Measures>,
 ) -> Vec<Region> {
     let border = (settings.distance == RegionDistance::Boundary).then_some(&curvatures[..]);
     let graph = RegionGraph::build(
@@ -125,11 +126,15 @@ fn merge_regions(
         settings.threshold = Threshold::Fixed(f64::NEG_INFINITY);
         settings.regions = 0;
     }
-    let (number, regions) = reduce(graph, &settings, facets.barely_curved, border);
+    let reduced = reduce(graph, &settings, facets.barely_curved, border);
     for label in labels.iter_mut() {
-        label.0 = number[label.0 as usize];
+        label.0 = reduced.number[label.0 as usize];
     }
-    regions
+    // Where surfaces have settled the patches nothing is merged, whatever the threshold.
+    if let Some(threshold) = reduced.threshold.filter(|_| settled.0.is_none()) {
+        measures.note(Stage::Merge, "threshold", threshold);
+    }
+    reduced.regions
 }
 
 fn make_rows(In(regions): In<Vec<Region>>, world: &mut World) {

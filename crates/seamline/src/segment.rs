@@ -17,7 +17,7 @@ use seamline_watch::{
 
 use crate::args::SegmentArgs;
 use crate::outcome::{Outcome, WrongUse, say_failure};
-use crate::say::{counted, print, say};
+use crate::say::{counted, print, say, tell_as_it_comes};
 use crate::settings::pipeline_of_args;
 
 /// Cuts every mesh named; one that fails is told and the others go on.
@@ -43,6 +43,9 @@ pub fn run(args: &SegmentArgs) -> Result<Outcome> {
     }
     let weld_share = weld_share(pipeline.settings_in_force());
 
+    if args.said.verbose {
+        tell_as_it_comes();
+    }
     let bar = progress(args.meshes.len(), args.said.quiet);
     let mut worker = Worker::new(Arc::clone(&pipeline));
     let mut failures = 0;
@@ -141,16 +144,16 @@ fn tell(
             stage,
             seconds,
             counts,
+            measures,
         } in &segmentation.stages
         {
-            let counts: Vec<_> = counts
-                .iter()
-                .map(|(name, n)| format!("{name} {n}"))
-                .collect();
+            let counts = counts.iter().map(|(name, n)| format!("{name} {n}"));
+            let measures = measures.iter().map(|(name, x)| format!("{name} {x:.3}"));
+            let told: Vec<_> = counts.chain(measures).collect();
             say(&format_args!(
                 "  {:<10} {seconds:>9.3} s  {}",
                 stage.name(),
-                counts.join(", ")
+                told.join(", ")
             ));
         }
     }

@@ -100,7 +100,9 @@ pub fn report<'a>(
 fn stages(segmentation: &Segmentation) -> Vec<Value> {
     let stages = segmentation.stages.iter();
     stages
-        .map(|record| json!({ "stage": record.stage, "counts": record.counts }))
+        .map(|record| {
+            json!({ "stage": record.stage, "counts": record.counts, "measures": record.measures })
+        })
         .collect()
 }
 

@@ -95,11 +95,12 @@ fn is_plane(
         return true;
     }
     let vertices = pieces.vertices.row(piece);
-    if vertices.len() >= 5
-        && view.is_flat(piece, tolerance)
-        && is_certain_plane(view.positions, vertices, tolerance)
-    {
-        return true;
+    if !view.is_flat(piece, tolerance) {
+        return false;
+    }
+    if vertices.len() >= 5 {
+        // What has all its vertices on two lines is a strip between two rulings.
+        return is_certain_plane(view.positions, vertices, tolerance);
     }
     let [mut largest, mut tangent, mut smooth] = [0.0f64; 3];
     for &link in pieces.around.row(piece) {
@@ -120,8 +121,7 @@ fn is_plane(
             tangent += at.length;
         }
     }
-    view.is_flat(piece, tolerance)
-        && (pieces.areas[piece as usize] > MUCH_LARGER * largest || tangent > TANGENT_SHARE * smooth)
+    pieces.areas[piece as usize] > MUCH_LARGER * largest || tangent > TANGENT_SHARE * smooth
 }
 
 /// A part on the way to others.

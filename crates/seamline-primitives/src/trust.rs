@@ -14,6 +14,8 @@ const ENOUGH_IF_EXACT: i64 = 5;
 const SMALL: i64 = 25;
 /// Evidence below which almost the whole border must be natural.
 const TINY: i64 = 8;
+/// How many times larger than a region's pieces on average a flat beside it is at least.
+const MUCH_LARGER: f64 = 2.0;
 const NATURAL_SHARE: f64 = 0.5;
 const NATURAL_SHARE_OF_TINY: f64 = 0.9;
 
@@ -51,6 +53,7 @@ fn is_natural(
     if own.strong && own.evidence >= LARGE && ends_abruptly(view, regions, region) {
         return true;
     }
+    let flat = MUCH_LARGER * view.area(&own.pieces) / own.pieces.len() as f64;
     let [mut walls, mut natural, mut whole] = [0.0; 3];
     for &piece in &own.pieces {
         for &link in view.pieces.around.row(piece) {
@@ -66,8 +69,10 @@ fn is_natural(
                 continue;
             }
             let speaks = if owner == NONE {
+                // On a dense free form every next piece lies in the tangent plane: a flat is larger.
                 view.pieces.certain[across as usize]
-                    || regions.ending(view, topology, own, piece, link) == Ending::Tangent
+                    || (own.exact || view.pieces.areas[across as usize] >= flat)
+                        && regions.ending(view, topology, own, piece, link) == Ending::Tangent
             } else {
                 let both_small =
                     own.evidence < SMALL && regions.all[owner as usize].evidence < SMALL;

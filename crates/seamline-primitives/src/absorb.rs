@@ -2,8 +2,6 @@
 
 use std::collections::{BTreeMap, HashSet};
 
-use glam::DVec3;
-
 use crate::hypothesis::{Hypothesis, View};
 use crate::pieces::NONE;
 use crate::refine::refine_patiently;
@@ -159,9 +157,7 @@ fn polish(view: View, regions: &mut Regions, fitted: &mut Vec<usize>) {
         if own.surface.kind == Kind::Plane || std::mem::replace(&mut fitted[region as usize], now) == now {
             continue;
         }
-        let vertices = view.vertices_of(&own.pieces);
-        let few = vertices.iter().step_by(vertices.len().div_ceil(MOST_POINTS));
-        let points: Vec<DVec3> = few.map(|&v| view.positions[v as usize]).collect();
+        let points = view.some_points(&own.pieces, MOST_POINTS);
         if let Some(fit) = refine_patiently(own.surface, &points, 0.0) {
             let better = view.weigh(fit.surface, own.sign, own.pieces.clone(), own.tolerance);
             if better.exact && better.rms <= own.rms {

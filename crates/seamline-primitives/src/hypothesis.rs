@@ -88,13 +88,37 @@ impl View<'_> {
             .all(|away| away <= tolerance)
     }
 
-    /// Distinct vertices of pieces.
+    /// Distinct vertices of pieces, in order.
     pub fn vertices_of(&self, pieces: &[u32]) -> Vec<u32> {
         let rows = pieces.iter().map(|&p| self.pieces.vertices.row(p));
-        let mut vertices: Vec<u32> = rows.flatten().copied().collect();
-        vertices.sort_unstable();
-        vertices.dedup();
+        let all = rows.flatten().copied();
+        if pieces.len() * SCARCE < self.positions.len() {
+            let mut vertices: Vec<u32> = all.collect();
+            vertices.sort_unstable();
+            vertices.dedup();
+            return vertices;
+        }
+        let mut among = vec![false; self.positions.len()];
+        for vertex in all {
+            among[vertex as usize] = true;
+        }
+        let numbered = among.into_iter().zip(0..);
+        numbered.filter_map(|(is, v)| is.then_some(v)).collect()
+    }
+
+    /// Positions of distinct vertices of pieces, `most` at most, from all over them.
+    pub fn some_points(&self, pieces: &[u32], most: usize) -> Vec<DVec3> {
+        let few: Vec<u32> = pieces
+            .iter()
+            .copied()
+            .step_by(pieces.len().div_ceil(most))
+            .collect();
+        let vertices = self.vertices_of(&few);
         vertices
+            .iter()
+            .step_by(vertices.len().div_ceil(most))
+            .map(|&v| self.positions[v as usize])
+            .collect()
     }
 
     pub fn area(&self, pieces: &[u32]) -> f64 {
@@ -117,7 +141,12 @@ impl View<'_> {
             .collect();
         let squares: f64 = points.iter().map(|&x| surface.distance(x).powi(2)).sum();
         let apart = 4.0 * tolerance;
-        let strong = is_strong(&surface, &points, apart)
+        let few: Vec<DVec3> = points
+            .iter()
+            .copied()
+            .step_by(points.len().div_ceil(MOST_LEVELLED))
+            .collect();
+        let strong = is_strong(&surface, &few, apart)
             && match surface.kind {
                 Kind::Plane | Kind::Cylinder | Kind::Cone => true,
                 Kind::Sphere | Kind::Torus => !self.lie_on_a_cone(&pieces, &points, tolerance),
@@ -157,6 +186,11 @@ impl View<'_> {
             .any(|fit| fit.rms <= tolerance)
     }
 }
+
+/// Vertices for each piece above which sorting a few is less work than going over all.
+const SCARCE: usize = 64;
+/// Most points that levels are counted of.
+const MOST_LEVELLED: usize = 2000;
 
 /// Least cosine between a piece's normal and the surface's at its centroid.
 const NORMALS_AGREE: f64 = 0.85;

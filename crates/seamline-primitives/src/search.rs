@@ -319,7 +319,11 @@ impl<'a> Search<'a> {
         if !self.tried.insert((hasher.finish(), kind)) {
             return true;
         }
-        let points = self.few(&vertices);
+        let points: Vec<DVec3> = vertices
+            .iter()
+            .step_by(vertices.len().div_ceil(MOST_POINTS))
+            .map(|&v| self.view.positions[v as usize])
+            .collect();
         let pick =
             |of: &[DVec3]| -> Vec<DVec3> { around.iter().map(|&p| of[p as usize]).collect() };
         let normals = pick(&self.view.pieces.normals);
@@ -378,14 +382,6 @@ impl<'a> Search<'a> {
         true
     }
 
-    fn few(&self, vertices: &[u32]) -> Vec<DVec3> {
-        vertices
-            .iter()
-            .step_by(vertices.len().div_ceil(MOST_POINTS))
-            .map(|&v| self.view.positions[v as usize])
-            .collect()
-    }
-
     /// Grows a surface from its seed; whenever the region has doubled it is fitted again, so that the error
     /// of extrapolation stays below the tolerance.
     fn grow(&mut self, seed: u32, mut surface: Surface, fitted: usize) -> Option<Hypothesis> {
@@ -406,7 +402,7 @@ impl<'a> Search<'a> {
             let look = [wider, region.clone()];
             let mut grown = false;
             for (among, goal) in look.into_iter().zip([1.0, FINAL_SHARE]) {
-                let points = self.few(&self.view.vertices_of(&among));
+                let points = self.view.some_points(&among, MOST_POINTS);
                 let Some(fit) = refine(surface, &points, goal * self.tolerance) else {
                     continue;
                 };

@@ -49,7 +49,9 @@ fn the_command_line_beats_the_environment_which_beats_the_file_which_beats_the_d
 fn merging_tells_the_threshold_it_found_and_that_threshold_gives_the_same_patches() {
     let home = home();
     let merged = |threshold: &str| {
-        let line = format!("segment bracket.obj --json --set merge.threshold={threshold}");
+        let line = format!(
+            "segment bracket.obj --json --set surfaces.enabled=false --set merge.threshold={threshold}"
+        );
         let report = home.run(&line).json();
         let stages = report["stages"].as_array().unwrap();
         let merge = stages.iter().find(|stage| stage["stage"] == "merge");
@@ -60,7 +62,7 @@ fn merging_tells_the_threshold_it_found_and_that_threshold_gives_the_same_patche
     assert!((0.4..=1.0).contains(&found) && found != 0.65, "{found}");
     assert_eq!(merged(&found.to_string()), (found, patches));
 
-    let line = "segment bracket.obj -v --set merge.threshold=auto";
+    let line = "segment bracket.obj -v --set surfaces.enabled=false --set merge.threshold=auto";
     let told = home.run(line).ended(0).err;
     assert!(told.contains(&format!("threshold {found:.3}")), "{told}");
 }

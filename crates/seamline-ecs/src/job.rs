@@ -25,6 +25,18 @@ pub struct MeshScale {
     pub length: f64,
 }
 
+/// The patch of each face where a step before Classify has found them already; else `None`. Where there are, the
+/// classifier is not asked.
+#[derive(Resource, Clone, Debug, Default)]
+pub struct Settled(pub Option<Vec<u32>>);
+
+impl Settled {
+    /// Is there something left to classify?
+    pub(crate) fn not_yet(settled: Res<Self>) -> bool {
+        settled.0.is_none()
+    }
+}
+
 /// The first failure of a step, if any: the stages after it are skipped.
 #[derive(Resource, Default)]
 pub struct JobFailure(pub Option<StepError>);

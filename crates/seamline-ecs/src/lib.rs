@@ -22,7 +22,7 @@ mod stage;
 mod worker;
 
 pub use column::{Column, ColumnMut};
-pub use job::{Counts, InputMesh, JobFailure, Measures, MeshScale, MeshTopology};
+pub use job::{Counts, InputMesh, JobFailure, Measures, MeshScale, MeshTopology, Settled};
 pub use pipeline::{BuiltinSteps, InstallStep, Pipeline, PipelineSettings, tables};
 pub use plugin::{
     Classifier, Clusters, CommandSettings, CurvatureSamples, LabelledMesh, Labels, MakeSystems,

@@ -10,7 +10,7 @@ use rayon::{ThreadPool, ThreadPoolBuilder};
 use seamline_mesh::Mesh;
 use thiserror::Error;
 
-use crate::job::{Counts, InputMesh, JobFailure, Measures, MeshTopology};
+use crate::job::{Counts, InputMesh, JobFailure, Measures, MeshTopology, Settled};
 use crate::pipeline::Pipeline;
 use crate::results::{Segmentation, StageRecord};
 use crate::stage::Stage;
@@ -162,6 +162,7 @@ fn fresh(pipeline: &Pipeline, progress: &Progress) -> (World, Schedule) {
     world.insert_resource(progress.clone());
     world.init_resource::<MeshTopology>();
     world.init_resource::<Counts>();
+    world.init_resource::<Settled>();
     world.init_resource::<Measures>();
 
     let mut schedule = Schedule::default();

@@ -48,7 +48,7 @@ pub use region_graph::{Link, Merged, RegionGraph};
 pub use score::{ScoreSettings, angle_score, curvature_score, facet_scores, vertex_scores};
 pub use sharp::{SharpSettings, dihedral_angles, sharp_edges, sharp_vertices};
 pub use spatial_order::SpatialOrder;
-pub use surfaces::{Settled, SurfaceSettings, patch_surfaces};
+pub use surfaces::{SurfaceSettings, patch_surfaces};
 pub use tensor::{Bending, TensorForm, TensorPair, edge_tensor, face_tensors, vertex_tensors};
 pub use threshold::{Threshold, widest_gap};
 
@@ -82,7 +82,6 @@ fn install(in_force: &Table) -> Result<InstallStep, SettingsError> {
             world.insert_resource(mesh.clone());
             world.insert_resource(sharp.clone());
             world.insert_resource(surfaces.clone());
-            world.insert_resource(Settled::default());
             world.insert_resource(curvature.clone());
             world.insert_resource(facets.clone());
             world.insert_resource(merge.clone());

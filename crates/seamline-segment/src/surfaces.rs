@@ -9,7 +9,7 @@ use seamline_ecs::results::{PatchSurface, SurfaceShape};
 use seamline_ecs::rows::{self, Surfaces};
 use seamline_ecs::settings::{OutOfRange, Profile, StepSettings};
 use seamline_ecs::{
-    Column, ColumnMut, Counts, InputMesh, MeshScale, MeshTopology, Stage, StageSystems,
+    Column, ColumnMut, Counts, InputMesh, MeshScale, MeshTopology, Settled, Stage, StageSystems,
 };
 use seamline_primitives::{Fitted, Found, Kind, find};
 use serde::{Deserialize, Serialize};
@@ -46,10 +46,6 @@ impl StepSettings for SurfaceSettings {
         )
     }
 }
-
-/// The patch of each face where surfaces explain the mesh; else `None`.
-#[derive(Resource, Clone, Debug, Default)]
-pub struct Settled(pub Option<Vec<u32>>);
 
 pub(crate) fn systems() -> StageSystems {
     look.pipe(make_rows).in_set(Stage::Surfaces)

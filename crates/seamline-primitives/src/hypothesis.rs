@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use crate::guess::{Neighbourhood, guesses};
+use crate::guess::{Facets, guesses};
 use crate::pieces::{Pieces, Triangles};
 use crate::refine::refine_patiently;
 use crate::surface::{Kind, Surface};
@@ -121,6 +121,15 @@ impl View<'_> {
             .collect()
     }
 
+    /// Normals and centroids of pieces.
+    pub fn facets(&self, pieces: &[u32]) -> Facets {
+        let pick = |of: &[DVec3]| -> Vec<DVec3> { pieces.iter().map(|&p| of[p as usize]).collect() };
+        Facets {
+            normals: pick(&self.pieces.normals),
+            centroids: pick(&self.pieces.centroids),
+        }
+    }
+
     pub fn area(&self, pieces: &[u32]) -> f64 {
         pieces.iter().map(|&p| self.pieces.areas[p as usize]).sum()
     }
@@ -166,21 +175,18 @@ impl View<'_> {
 
     /// Do the vertices of a sphere's or a torus' pieces lie on a cone as well? Those of one strip of revolution do.
     fn lie_on_a_cone(&self, pieces: &[u32], points: &[DVec3], tolerance: f64) -> bool {
-        let pick = |of: &[DVec3]| -> Vec<DVec3> {
-            let few = pieces.iter().step_by(pieces.len().div_ceil(100));
-            few.map(|&p| of[p as usize]).collect()
-        };
+        let some: Vec<u32> = pieces
+            .iter()
+            .copied()
+            .step_by(pieces.len().div_ceil(100))
+            .collect();
+        let facets = self.facets(&some);
         let few: Vec<DVec3> = points
             .iter()
             .copied()
             .step_by(points.len().div_ceil(100))
             .collect();
-        let of = Neighbourhood {
-            normals: &pick(&self.pieces.normals),
-            centroids: &pick(&self.pieces.centroids),
-            points: &few,
-        };
-        guesses(Kind::Cone, &of)
+        guesses(Kind::Cone, &facets.between(&few))
             .into_iter()
             .filter_map(|guess| refine_patiently(guess, &few, tolerance))
             .any(|fit| fit.rms <= tolerance)

@@ -6,7 +6,7 @@ use std::hash::{DefaultHasher, Hash, Hasher};
 
 use glam::DVec3;
 
-use crate::guess::{Neighbourhood, guesses};
+use crate::guess::guesses;
 use crate::hypothesis::{Hypothesis, View};
 use crate::refine::refine;
 use crate::surface::{Kind, Surface};
@@ -22,7 +22,7 @@ const DISC_COS: f64 = 0.95;
 const MOST_IN_DISC: usize = 4000;
 const DISC_SHRINKS: usize = 4;
 /// Pieces of a disc that a fit looks at first.
-const DISC_SAMPLE: usize = 64;
+const DISC_SAMPLE: usize = 40;
 /// Most neighbourhoods of three pieces tried for one seed.
 const MOST_TRIPLES: usize = 12;
 /// After so many seeds in vain one more piece about each further one is none: a large free form takes as many
@@ -259,7 +259,8 @@ impl<'a> Search<'a> {
             let sample: Vec<u32> = disc.iter().copied().step_by(step).collect();
             for kind in Kind::CURVED {
                 self.attempt(seed, kind, &sample, best);
-                let proved = |h: &Hypothesis| h.strong && h.exact && h.pieces.len() >= disc.len() / 2;
+                let proved =
+                    |h: &Hypothesis| h.strong && h.exact && h.pieces.len() >= disc.len() / 2;
                 if best[kind as usize - 1].as_ref().is_some_and(proved) {
                     return true;
                 }
@@ -324,35 +325,10 @@ impl<'a> Search<'a> {
             .step_by(vertices.len().div_ceil(MOST_POINTS))
             .map(|&v| self.view.positions[v as usize])
             .collect();
-        let pick =
-            |of: &[DVec3]| -> Vec<DVec3> { around.iter().map(|&p| of[p as usize]).collect() };
-        let normals = pick(&self.view.pieces.normals);
-        let centroids = pick(&self.view.pieces.centroids);
-        let mut first = guesses(
-            kind,
-            &Neighbourhood {
-                normals: &normals,
-                centroids: &centroids,
-                points: &points,
-            },
-        );
+        let facets = self.view.facets(around);
+        let mut first = guesses(kind, &facets.between(&points));
         if matches!(kind, Kind::Cylinder | Kind::Cone) && around.len() == STRIP {
-            // Triangles to and fro between two rims lean one way and the other, two together neither way.
-            let pairs = |of: &[DVec3]| -> Vec<DVec3> {
-                of.windows(2).map(|two| (two[0] + two[1]) / 2.0).collect()
-            };
-            let normals: Vec<DVec3> = pairs(&normals)
-                .into_iter()
-                .map(DVec3::normalize_or_zero)
-                .collect();
-            first.extend(guesses(
-                kind,
-                &Neighbourhood {
-                    normals: &normals,
-                    centroids: &pairs(&centroids),
-                    points: &points,
-                },
-            ));
+            first.extend(guesses(kind, &facets.paired().between(&points)));
         }
         for guess in first {
             let Some(fit) = refine(guess, &points, self.tolerance) else {

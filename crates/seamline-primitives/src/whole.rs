@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use crate::guess::{Neighbourhood, guesses};
+use crate::guess::guesses;
 use crate::hypothesis::{Hypothesis, View};
 use crate::parts::{Form, Parts};
 use crate::refine::refine_patiently;
@@ -40,16 +40,11 @@ pub(crate) fn whole(view: View, pieces: &[u32], tolerance: f64) -> Option<Hypoth
         .iter()
         .step_by(vertices.len().div_ceil(MOST_POINTS));
     let points: Vec<DVec3> = few.map(|&v| view.positions[v as usize]).collect();
-    let pick = |of: &[DVec3]| -> Vec<DVec3> { pieces.iter().map(|&p| of[p as usize]).collect() };
-    let of = Neighbourhood {
-        normals: &pick(&view.pieces.normals),
-        centroids: &pick(&view.pieces.centroids),
-        points: &points,
-    };
+    let facets = view.facets(pieces);
     [Kind::Cylinder, Kind::Cone, Kind::Sphere, Kind::Torus]
         .into_iter()
         .filter(|kind| points.len() > kind.degrees_of_freedom())
-        .flat_map(|kind| guesses(kind, &of))
+        .flat_map(|kind| guesses(kind, &facets.between(&points)))
         .filter_map(|guess| refine_patiently(guess, &points, tolerance))
         .find_map(|fit| {
             let surface = fit.surface;

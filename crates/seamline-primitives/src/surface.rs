@@ -128,6 +128,7 @@ impl Surface {
     }
 
     /// Distance of `x`, and its derivatives by point (3), axis (3), `a` and `b`.
+    #[inline]
     pub(crate) fn derivatives(&self, x: DVec3) -> (f64, [f64; 8]) {
         let row = |point: DVec3, axis: DVec3, a: f64, b: f64| {
             [point.x, point.y, point.z, axis.x, axis.y, axis.z, a, b]

@@ -24,6 +24,7 @@
 #![allow(clippy::needless_range_loop)]
 
 mod absorb;
+mod around;
 mod certain;
 mod crease_angles;
 mod creases;
@@ -37,6 +38,7 @@ mod pieces;
 mod refine;
 mod regions;
 mod rows;
+mod scout;
 mod search;
 mod select;
 mod surface;
@@ -51,7 +53,7 @@ pub use surface::{Kind, Surface};
 use hypothesis::{Hypothesis, View};
 use pieces::{NONE, Pieces, Triangles};
 use regions::Regions;
-use search::Search;
+use search::search;
 use select::{borders_speak_for, free_part, select};
 
 /// Distances, in diagonals of the bounding box, at which vertices still lie on a surface: that of an export
@@ -325,7 +327,7 @@ fn step(view: View, topology: &Topology, regions: &mut Regions, rung: usize, tol
     let open: Vec<bool> = (0..view.pieces.count())
         .map(|p| regions.owner[p] == NONE)
         .collect();
-    let found = Search::new(view, &open, rung, tolerance).run();
+    let found = search(view, &open, rung, tolerance);
     let least = |kind: Kind| match (rung, kind) {
         (0, _) => 1,
         (1, Kind::Cylinder) => 8,

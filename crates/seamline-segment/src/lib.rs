@@ -29,7 +29,7 @@ mod threshold;
 use std::sync::Arc;
 
 use bevy_ecs::prelude::*;
-use seamline_ecs::settings::{SettingsError, SettingsTable, read};
+use seamline_ecs::settings::{SettingsError, SettingsTable, StepSettings, read};
 use seamline_ecs::{BuiltinSteps, InstallStep};
 use toml::Table;
 
@@ -64,6 +64,7 @@ pub fn builtin_steps() -> BuiltinSteps {
             SettingsTable::of::<MergeSettings>(),
             SettingsTable::of::<ScoreSettings>(),
         ],
+        with_chosen_classifier: &[(SurfaceSettings::TABLE, "enabled", false)],
         install,
     }
 }

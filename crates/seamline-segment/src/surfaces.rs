@@ -20,7 +20,8 @@ use crate::grow::{Grown, mean_curvatures};
 #[derive(Resource, Clone, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SurfaceSettings {
-    /// Are surfaces looked for? Curvature must lie on facets.
+    /// Are surfaces looked for? Curvature must lie on facets. Where surfaces explain a mesh no classifier is
+    /// asked: so not by default where a classifier other than the default one is chosen.
     pub enabled: bool,
     /// Share of the area that must lie exactly on surfaces for the patches to follow from them; below it
     /// (noise, scans, natural shapes) curvature leads. The least of any CAD export measured is .06, a

@@ -41,6 +41,7 @@ mod rows;
 mod scout;
 mod search;
 mod select;
+mod snap;
 mod surface;
 mod trust;
 mod whole;
@@ -156,7 +157,9 @@ pub fn find(positions: &[DVec3], topology: &Topology, farthest: f64) -> Found {
         .collect();
     creases::split(&scaled, topology, &triangles, &parts.forms, &mut of_face);
     let (of_face, part_of) = connected(topology, &of_face);
-    let surfaces = describe::surfaces(view, &regions, &parts, &part_of, ladder[0]);
+    let mut surfaces = describe::surfaces(view, &regions, &parts, &part_of, ladder[0]);
+    let points = patch_points(&scaled, topology, &of_face, surfaces.len());
+    snap::snap(&mut surfaces, &points, precision);
     Found {
         of_face,
         surfaces: surfaces
@@ -165,6 +168,31 @@ pub fn find(positions: &[DVec3], topology: &Topology, farthest: f64) -> Found {
             .collect(),
         exact_share,
     }
+}
+
+/// Vertices of each patch, a few of many.
+fn patch_points(
+    positions: &[DVec3],
+    topology: &Topology,
+    of_face: &[u32],
+    count: usize,
+) -> Vec<Vec<DVec3>> {
+    const FEW: usize = 300;
+    let mut faces = vec![0; count];
+    for &patch in of_face {
+        faces[patch as usize] += 1usize;
+    }
+    let mut seen = vec![0usize; count];
+    let mut points = vec![Vec::new(); count];
+    for (face, &patch) in of_face.iter().enumerate() {
+        let patch = patch as usize;
+        if seen[patch].is_multiple_of(faces[patch].div_ceil(FEW)) {
+            let corners = topology.triangles[face].iter();
+            points[patch].extend(corners.map(|&v| positions[v as usize]));
+        }
+        seen[patch] += 1;
+    }
+    points
 }
 
 /// Share of the area that regions take on which their vertices lie exactly.

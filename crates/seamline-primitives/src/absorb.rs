@@ -1,6 +1,6 @@
 //! After the selection: regions and pieces that lie on a larger neighbour's surface after all.
 
-use std::collections::{BTreeMap, HashSet};
+use std::collections::{BTreeMap, BTreeSet};
 
 use crate::hypothesis::{Hypothesis, View};
 use crate::pieces::NONE;
@@ -50,6 +50,7 @@ fn reach(region: &Hypothesis, tolerance: f64) -> f64 {
 
 fn absorb_regions(view: View, regions: &mut Regions, tolerance: f64) -> usize {
     let mut joined = 0;
+    let mut grown = BTreeSet::new();
     let mut alive: Vec<u32> = regions.alive().collect();
     alive.sort_by_key(|&r| regions.all[r as usize].evidence);
     for small in alive {
@@ -80,9 +81,14 @@ fn absorb_regions(view: View, regions: &mut Regions, tolerance: f64) -> usize {
             .max_by(|a, b| a.1.total_cmp(&b.1));
         if let Some((large, _)) = taker {
             let gone = regions.dissolve(small);
-            join(view, regions, large, gone.pieces);
+            add(regions, large, gone.pieces);
+            grown.insert(large);
             joined += 1;
         }
+    }
+    // Once each: a large one may take in many.
+    for region in grown {
+        weigh(view, regions, region);
     }
     joined
 }
@@ -108,7 +114,8 @@ fn absorb_pieces(view: View, regions: &mut Regions, tolerance: f64) -> usize {
     }
     let count = joined.values().map(Vec::len).sum();
     for (region, pieces) in joined {
-        join(view, regions, region, pieces);
+        add(regions, region, pieces);
+        weigh(view, regions, region);
     }
     count
 }
@@ -136,15 +143,20 @@ fn taker(view: View, regions: &Regions, piece: u32, tolerance: f64) -> Option<u3
     best.map(|(_, owner)| owner)
 }
 
-fn join(view: View, regions: &mut Regions, region: u32, more: Vec<u32>) {
+/// Gives pieces to a region, which is to be weighed afterwards.
+fn add(regions: &mut Regions, region: u32, more: Vec<u32>) {
     for &piece in &more {
         regions.owner[piece as usize] = region;
     }
+    regions.all[region as usize].pieces.extend(more);
+}
+
+fn weigh(view: View, regions: &mut Regions, region: u32) {
     let own = &mut regions.all[region as usize];
-    let mut pieces = std::mem::take(&mut own.pieces);
-    pieces.extend(more);
-    debug_assert_eq!(pieces.iter().collect::<HashSet<_>>().len(), pieces.len());
-    *own = view.weigh(own.surface, own.sign, pieces, own.tolerance);
+    let pieces = std::mem::take(&mut own.pieces);
+    if !pieces.is_empty() {
+        *own = view.weigh(own.surface, own.sign, pieces, own.tolerance);
+    }
 }
 
 /// Fits surfaces once more to all that lies on them, those that changed since they were fitted last: what was

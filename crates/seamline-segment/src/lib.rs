@@ -4,8 +4,10 @@
 //! Computer-Aided Design 37 (2005). Each file is one step: a pure kernel on slices, the thin system that
 //! lends it its columns, and its settings. Classifying and rectifying are left to plugins.
 
+mod adopt;
 mod ball;
 mod boundaries;
+mod changes;
 mod curvature;
 mod eigen;
 mod enrich;
@@ -14,6 +16,7 @@ mod face_patches;
 mod face_shape;
 mod facets;
 mod grow;
+mod hard_edges;
 mod import;
 mod merge;
 mod reduction;
@@ -29,18 +32,20 @@ mod threshold;
 use std::sync::Arc;
 
 use bevy_ecs::prelude::*;
-use seamline_ecs::settings::{SettingsError, SettingsTable, read};
-use seamline_ecs::{BuiltinSteps, InstallStep};
+use seamline_ecs::settings::{SettingsError, SettingsTable, StepSettings, read};
+use seamline_ecs::{BuiltinSteps, InstallStep, PipelineKind, PipelineSettings};
 use toml::Table;
 
+pub use adopt::{adopt_edges, adopt_labels};
 pub use boundaries::chains;
 pub use curvature::{Carrier, CurvatureSettings};
 pub use eigen::{PrincipalFrame, free_principal_frame, tangent_principal_frame};
-pub use export::{LabelledRows, describe, face_curvatures};
+pub use export::{Given, LabelledRows, describe, face_curvatures};
 pub use face_patches::{FacePatches, number_patches};
 pub use face_shape::face_shapes;
 pub use facets::{FacetSettings, Facets, facet_feature, filter_curvatures, find_facets};
 pub use grow::{Grown, grow_facets, grow_pure_triangles};
+pub use hard_edges::{HardEdgeSettings, hard_edges};
 pub use import::{Laid, MeshSettings, ScaleBy, lay_out};
 pub use merge::{MergeSettings, RegionDistance};
 pub use reduction::reduce;
@@ -58,6 +63,7 @@ pub fn builtin_steps() -> BuiltinSteps {
         tables: vec![
             SettingsTable::of::<MeshSettings>(),
             SettingsTable::of::<SharpSettings>(),
+            SettingsTable::of::<HardEdgeSettings>(),
             SettingsTable::of::<SurfaceSettings>(),
             SettingsTable::of::<CurvatureSettings>(),
             SettingsTable::of::<FacetSettings>(),
@@ -65,12 +71,18 @@ pub fn builtin_steps() -> BuiltinSteps {
             SettingsTable::of::<ScoreSettings>(),
         ],
         install,
+        idle: |kind| match kind {
+            PipelineKind::Segment => &[HardEdgeSettings::TABLE],
+            PipelineKind::Rectify => &[SurfaceSettings::TABLE, MergeSettings::TABLE],
+        },
     }
 }
 
 fn install(in_force: &Table) -> Result<InstallStep, SettingsError> {
+    let kind = read::<PipelineSettings>(in_force)?.kind;
     let mesh: MeshSettings = read(in_force)?;
     let sharp: SharpSettings = read(in_force)?;
+    let hard_edges: HardEdgeSettings = read(in_force)?;
     let surfaces: SurfaceSettings = read(in_force)?;
     let curvature: CurvatureSettings = read(in_force)?;
     let facets: FacetSettings = read(in_force)?;
@@ -79,9 +91,14 @@ fn install(in_force: &Table) -> Result<InstallStep, SettingsError> {
 
     Ok(Arc::new(
         move |world: &mut World, schedule: &mut Schedule| {
+            world.insert_resource(kind);
             world.insert_resource(mesh.clone());
             world.insert_resource(sharp.clone());
-            world.insert_resource(surfaces.clone());
+            world.insert_resource(hard_edges.clone());
+            world.insert_resource(SurfaceSettings {
+                enabled: surfaces.enabled && kind == PipelineKind::Segment,
+                ..surfaces.clone()
+            });
             world.insert_resource(Settled::default());
             world.insert_resource(curvature.clone());
             world.insert_resource(facets.clone());
@@ -89,29 +106,44 @@ fn install(in_force: &Table) -> Result<InstallStep, SettingsError> {
             world.insert_resource(score.clone());
 
             schedule.add_systems((import::systems(), face_shape::systems()));
-            if surfaces.enabled {
-                schedule.add_systems(surfaces::systems());
-            }
-            let on_vertices = curvature.carrier == Carrier::Vertices;
-            if on_vertices && sharp.enrich {
-                schedule.add_systems((sharp::systems(), enrich::systems()).chain());
-                schedule.add_systems((merge::systems(), enrich::removal()).chain());
-            } else {
-                schedule.add_systems((sharp::systems(), merge::systems()));
+            match kind {
+                PipelineKind::Segment => {
+                    let enriched = sharp.enrich && curvature.carrier == Carrier::Vertices;
+                    if surfaces.enabled {
+                        schedule.add_systems(surfaces::systems());
+                    }
+                    segment(schedule, curvature.carrier, enriched);
+                }
+                PipelineKind::Rectify => rectify(schedule, curvature.carrier),
             }
             schedule.add_systems(match curvature.carrier {
-                Carrier::Vertices => (
-                    curvature::systems(),
-                    grow::vertex_systems(),
-                    score::vertex_systems(),
-                ),
-                Carrier::Facets => (
-                    facets::systems(),
-                    grow::facet_systems(),
-                    score::facet_systems(),
-                ),
+                Carrier::Vertices => score::vertex_systems(),
+                Carrier::Facets => score::facet_systems(),
             });
             schedule.add_systems(export::systems());
         },
     ))
+}
+
+/// From sharp edges to merged regions.
+fn segment(schedule: &mut Schedule, carrier: Carrier, enriched: bool) {
+    if enriched {
+        schedule.add_systems((sharp::systems(), enrich::systems()).chain());
+        schedule.add_systems((merge::systems(), enrich::removal()).chain());
+    } else {
+        schedule.add_systems((sharp::systems(), merge::systems()));
+    }
+    schedule.add_systems(match carrier {
+        Carrier::Vertices => (curvature::systems(), grow::vertex_systems()),
+        Carrier::Facets => (facets::systems(), grow::facet_systems()),
+    });
+}
+
+/// From sharp edges to what was given. Where curvature lies on vertices it is measured for the score alone.
+fn rectify(schedule: &mut Schedule, carrier: Carrier) {
+    schedule.add_systems((sharp::systems(), adopt::systems()));
+    schedule.add_systems(match carrier {
+        Carrier::Vertices => adopt::no_samples(),
+        Carrier::Facets => facets::systems(),
+    });
 }

@@ -1,6 +1,8 @@
 //! The paper's rectifier: correct boundary edges are marked, then contours are tracked from their open ends
 //! until they close (paper 5.3).
 
+mod bridge;
+mod contours;
 mod mark;
 mod patches;
 mod track;
@@ -8,12 +10,14 @@ mod track;
 use schemars::JsonSchema;
 use seamline_ecs::components::ContourState;
 use seamline_ecs::settings::{OutOfRange, Profile, StepSettings};
-use seamline_ecs::{LabelledMesh, Labels, Rectifier, StepError};
+use seamline_ecs::{EndFate, GivenAs, LabelledMesh, Labels, Rectifier, StepError};
 use serde::{Deserialize, Serialize};
 
-pub use mark::mark;
+pub use bridge::bridge;
+pub use contours::Ground;
+pub use mark::{mark, mark_given};
 pub use patches::patches;
-pub use track::{Tracked, track};
+pub use track::track;
 
 /// The plugin, and its `[contour-tracking]` table.
 #[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
@@ -29,6 +33,37 @@ pub struct ContourTrackingSettings {
     pub keep_unmarked: bool,
     /// Weight of the turn against the score: `omega_theta` of the paper.
     pub turn_weight: f64,
+    /// How open ends of contours are closed.
+    pub open_ends: ClosingRule,
+    /// The longest piece that is added to close one open end, as a share of the part's size (`mesh.scale`); 0: any.
+    pub max_gap_share: f64,
+    /// What becomes of a piece of contour that ends where nothing closes it, and so encloses no patch.
+    pub dangling: DanglingRule,
+    /// Given edges, of which some may be wrong: a run of them between two junctions in which none is correct, by its
+    /// score or its angle, is not taken.
+    pub doubt_given: bool,
+}
+
+/// A way to close open ends.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum ClosingRule {
+    /// Step by step along the edge of least weight until a contour is met: the paper's.
+    Track,
+    /// By the cheapest way over the whole mesh to another open end or to a contour.
+    Bridge,
+    /// Not at all.
+    Leave,
+}
+
+/// What becomes of contours that enclose nothing.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum DanglingRule {
+    /// They are dropped, as in the paper.
+    Drop,
+    /// They are kept as creases inside one patch, and reported.
+    Keep,
 }
 
 impl StepSettings for ContourTrackingSettings {
@@ -40,6 +75,10 @@ impl StepSettings for ContourTrackingSettings {
             sharp_is_correct: true,
             keep_unmarked: profile == Profile::Cad,
             turn_weight: 2.0,
+            open_ends: ClosingRule::Track,
+            max_gap_share: 0.0,
+            dangling: DanglingRule::Drop,
+            doubt_given: true,
         }
     }
 
@@ -53,6 +92,11 @@ impl StepSettings for ContourTrackingSettings {
             self.turn_weight >= 0.0,
             "turn_weight",
             "a weight of 0 or more",
+        )?;
+        OutOfRange::unless(
+            self.max_gap_share >= 0.0,
+            "max_gap_share",
+            "a share of the part's size, 0 (any) or more",
         )
     }
 }
@@ -64,29 +108,50 @@ impl Rectifier for ContourTrackingSettings {
     fn rectify(&self, mesh: &LabelledMesh<'_>) -> Result<Labels, StepError> {
         let (topology, scores) = (mesh.topology, mesh.scores);
         let mut contours = vec![ContourState::Off; scores.len()];
-        mark(
+        let states = &mut contours;
+        if mesh.given_as == GivenAs::Labels {
+            mark(topology, scores, mesh.sharp, mesh.labels, self, states);
+        } else {
+            let doubted = self.doubt_given && mesh.given_as == GivenAs::Edges;
+            let given = mesh.given_edges;
+            mark_given(topology, scores, mesh.sharp, given, doubted, self, states);
+        }
+        let ground = Ground {
             topology,
+            positions: mesh.positions,
             scores,
-            mesh.sharp,
-            mesh.labels,
-            self,
-            &mut contours,
-        );
-        let weight = self.turn_weight;
-        let tracked = track(topology, mesh.positions, scores, weight, &mut contours);
+            turn_weight: self.turn_weight,
+            max_gap: match (self.open_ends, self.max_gap_share) {
+                (ClosingRule::Leave, _) => 0.0,
+                (_, 0.0) => f64::INFINITY,
+                (_, share) => share,
+            },
+        };
+        let open_ends = match self.open_ends {
+            ClosingRule::Bridge => bridge(ground, states),
+            ClosingRule::Track | ClosingRule::Leave => track(ground, states),
+        };
         let mut of_face = mesh.labels.to_vec();
-        let patch_count = patches(topology, &mut contours, &mut of_face);
+        let keep = self.dangling == DanglingRule::Keep;
+        let patch_count = patches(topology, keep, states, &mut of_face);
 
         let is_correct = |state: &&ContourState| **state == ContourState::Correct;
+        let correct = contours.iter().filter(is_correct).count();
+        let left = open_ends.iter().filter(|end| end.fate == EndFate::Left);
         let counts = vec![
-            ("correct_edges", contours.iter().filter(is_correct).count()),
-            ("open_ends", tracked.open_ends),
-            ("tracked_edges", tracked.steps),
+            ("correct_edges", correct),
+            ("open_ends", open_ends.len()),
+            ("open_ends_left", left.count()),
+            (
+                "tracked_edges",
+                open_ends.iter().map(|end| end.edges as usize).sum(),
+            ),
             ("patches", patch_count),
         ];
         Ok(Labels {
             of_face,
             contours,
+            open_ends,
             counts,
         })
     }

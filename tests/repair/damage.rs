@@ -12,7 +12,7 @@ const HARD_DEG: f64 = 25.0;
 const RUN: usize = 8;
 
 /// Chance of a face beside a boundary edge to go over to the other side, each round.
-const FLIP: f64 = 0.5;
+const FLIP: f64 = 0.3;
 
 #[derive(Clone, Copy, Debug)]
 pub enum Damage {

@@ -13,7 +13,6 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use seamline_ecs::Worker;
-use seamline_mesh::Markings;
 use seamline_tests::pipeline;
 use seamline_tests::score::agreement;
 

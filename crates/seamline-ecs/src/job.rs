@@ -28,8 +28,10 @@ pub struct GivenBoundary {
 /// What boundaries were given as.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum GivenAs {
-    /// Labels of faces: boundaries are closed.
+    /// Nothing: the patches are those of the segmentation.
     #[default]
+    Nothing,
+    /// Labels of faces: boundaries are closed.
     Labels,
     /// Edges that somebody names: they may have gaps, and some may be wrong.
     Edges,

@@ -31,7 +31,7 @@ pub mod tracker;
 
 pub use config::{Config, ConfigError, ConfigFile};
 pub use daemon::{Order, Reload, RunOptions, Summary, WatchError, run};
-pub use load::{LoadError, LoadedMesh, load, weld_share};
+pub use load::{LoadError, LoadedMarkings, LoadedMesh, load, load_markings, weld_share};
 pub use outputs::{JobFacts, OutputError, WriteSet, report, write_results};
 pub use setup::Setup;
 pub use shown::shown;

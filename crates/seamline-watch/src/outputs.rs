@@ -12,10 +12,11 @@ use std::str::FromStr;
 
 use schemars::JsonSchema;
 use seamline_ecs::Segmentation;
+use seamline_ecs::results::Boundary;
 use seamline_ecs::settings::SettingsError;
 use seamline_mesh::Mesh;
 use seamline_mesh::write::{
-    PatchBoundary, VertexQuantities, write_labels, write_ply, write_polylines,
+    CurveGroup, VertexQuantities, write_labels, write_ply, write_polylines,
 };
 use serde::{Deserialize, Serialize};
 
@@ -233,19 +234,47 @@ fn write_one(
             write_ply(out, &mesh.polygons, quantities, patches, types.as_deref())
         }
         OutputFile::Boundaries => {
-            let curves = segmentation.boundaries.iter();
-            let curves: Vec<_> = curves
-                .map(|b| PatchBoundary {
-                    patches: b.patches,
-                    polylines: &b.polylines,
-                })
-                .collect();
-            write_polylines(out, mesh.positions(), &curves)
+            write_polylines(out, mesh.positions(), &curve_groups(segmentation))
         }
         OutputFile::Report => {
             serde_json::to_writer_pretty(&mut *out, &report(mesh, segmentation, about))?;
             out.write_all(b"\n")
         }
+    }
+}
+
+/// The curves of each pair of patches. Where boundaries were given, those that were kept are `old` and those that were
+/// added `new`; what was removed and what lies inside one patch are groups of their own.
+fn curve_groups(segmentation: &Segmentation) -> Vec<CurveGroup<'_>> {
+    let Some(changes) = &segmentation.changes else {
+        let boundaries = segmentation.boundaries.iter();
+        return boundaries
+            .map(|boundary| group_of(boundary, "", &boundary.polylines))
+            .collect();
+    };
+    let of_patches = segmentation.boundaries.iter().flat_map(|boundary| {
+        [
+            group_of(boundary, " old", &boundary.polylines),
+            group_of(boundary, " new", &boundary.added),
+        ]
+    });
+    let others = [
+        ("removed", &changes.removed_curves),
+        ("crease", &changes.crease_curves),
+    ];
+    let others = others.into_iter().map(|(name, polylines)| CurveGroup {
+        names: name.to_owned(),
+        polylines,
+    });
+    let all = of_patches.chain(others);
+    all.filter(|group| !group.polylines.is_empty()).collect()
+}
+
+fn group_of<'a>(boundary: &Boundary, mark: &str, polylines: &'a [Vec<u32>]) -> CurveGroup<'a> {
+    let [a, b] = boundary.patches;
+    CurveGroup {
+        names: format!("patch_{a}_patch_{b}{mark}"),
+        polylines,
     }
 }
 

@@ -8,6 +8,10 @@ use seamline_ecs::{EndFate, OpenEnd};
 
 use crate::contours::{Contours, Ground, Lightest};
 
+/// What running into the side of a contour counts as: a turn into it. Without it an open end closes upon its own contour
+/// rather than going on to the one in front of it.
+const T_JUNCTION_DEG: f64 = 90.0;
+
 /// A way from an open end to a contour.
 struct Bridge {
     /// The place of the end among all.
@@ -83,6 +87,8 @@ fn cheapest(contours: &Contours<'_>, end: usize, from: u32) -> Option<Bridge> {
                 let mut weight = cost + ground.step(edge, at, next);
                 if let Some(other) = contours.arriving(far) {
                     weight += ground.turn_weight * ground.turn_deg(next, far, other);
+                } else if contours.passes(far) {
+                    weight += ground.turn_weight * T_JUNCTION_DEG;
                 }
                 heap.push(Lightest {
                     weight,

@@ -5,10 +5,12 @@ mod bridge;
 mod contours;
 mod mark;
 mod patches;
+mod straighten;
+mod stretches;
 mod track;
 
 use schemars::JsonSchema;
-use seamline_ecs::components::ContourState;
+use seamline_ecs::components::{ContourState, FaceLabel};
 use seamline_ecs::settings::{OutOfRange, Profile, StepSettings};
 use seamline_ecs::{EndFate, GivenAs, LabelledMesh, Labels, Rectifier, StepError};
 use serde::{Deserialize, Serialize};
@@ -17,6 +19,8 @@ pub use bridge::bridge;
 pub use contours::Ground;
 pub use mark::{mark, mark_given};
 pub use patches::patches;
+pub use straighten::straighten;
+pub use stretches::stretches;
 pub use track::track;
 
 /// The plugin, and its `[contour-tracking]` table.
@@ -42,6 +46,13 @@ pub struct ContourTrackingSettings {
     /// Given edges, of which some may be wrong: a run of them between two junctions in which none is correct, by its
     /// score or its angle, is not taken.
     pub doubt_given: bool,
+    /// Given labels: where their boundary turns by more than this between edges that are not correct it is rough, and
+    /// the faces beside it are labelled anew before anything else; else it is kept as it is. The sides of a cylinder of
+    /// twelve turn by 30.
+    pub rough_above_deg: f64,
+    /// How much a flat piece beside a rough boundary is held to the label most of it bears, against where
+    /// its boundary would run best; 0: not at all.
+    pub vote_weight: f64,
 }
 
 /// A way to close open ends.
@@ -79,6 +90,8 @@ impl StepSettings for ContourTrackingSettings {
             max_gap_share: 0.0,
             dangling: DanglingRule::Drop,
             doubt_given: true,
+            rough_above_deg: 30.0,
+            vote_weight: 0.1,
         }
     }
 
@@ -97,6 +110,16 @@ impl StepSettings for ContourTrackingSettings {
             self.max_gap_share >= 0.0,
             "max_gap_share",
             "a share of the part's size, 0 (any) or more",
+        )?;
+        OutOfRange::unless(
+            (0.0..=180.0).contains(&self.rough_above_deg),
+            "rough_above_deg",
+            "a turn from 0 to 180 degrees (none is rough)",
+        )?;
+        OutOfRange::unless(
+            self.vote_weight >= 0.0,
+            "vote_weight",
+            "a weight of 0 or more",
         )
     }
 }
@@ -106,20 +129,11 @@ impl Rectifier for ContourTrackingSettings {
         "keeps correct boundary edges and tracks contours from them until they close (the paper's)";
 
     fn rectify(&self, mesh: &LabelledMesh<'_>) -> Result<Labels, StepError> {
-        let (topology, scores) = (mesh.topology, mesh.scores);
-        let mut contours = vec![ContourState::Off; scores.len()];
-        let states = &mut contours;
-        if mesh.given_as == GivenAs::Labels {
-            mark(topology, scores, mesh.sharp, mesh.labels, self, states);
-        } else {
-            let doubted = self.doubt_given && mesh.given_as == GivenAs::Edges;
-            let given = mesh.given_edges;
-            mark_given(topology, scores, mesh.sharp, given, doubted, self, states);
-        }
+        let topology = mesh.topology;
         let ground = Ground {
             topology,
             positions: mesh.positions,
-            scores,
+            scores: mesh.scores,
             turn_weight: self.turn_weight,
             max_gap: match (self.open_ends, self.max_gap_share) {
                 (ClosingRule::Leave, _) => 0.0,
@@ -127,11 +141,13 @@ impl Rectifier for ContourTrackingSettings {
                 (_, share) => share,
             },
         };
+        let mut of_face = mesh.labels.to_vec();
+        let mut contours = self.marked(mesh, &ground, &mut of_face);
+        let states = &mut contours;
         let open_ends = match self.open_ends {
             ClosingRule::Bridge => bridge(ground, states),
             ClosingRule::Track | ClosingRule::Leave => track(ground, states),
         };
-        let mut of_face = mesh.labels.to_vec();
         let keep = self.dangling == DanglingRule::Keep;
         let patch_count = patches(topology, keep, states, &mut of_face);
 
@@ -154,5 +170,63 @@ impl Rectifier for ContourTrackingSettings {
             open_ends,
             counts,
         })
+    }
+}
+
+impl ContourTrackingSettings {
+    /// The contours to begin with. Labels that were given are made straight where their boundary is rough, and what is
+    /// straight of it is kept.
+    fn marked(
+        &self,
+        mesh: &LabelledMesh<'_>,
+        ground: &Ground<'_>,
+        labels: &mut Vec<FaceLabel>,
+    ) -> Vec<ContourState> {
+        let (topology, scores) = (mesh.topology, mesh.scores);
+        let mut states = vec![ContourState::Off; scores.len()];
+        match mesh.given_as {
+            GivenAs::Edges | GivenAs::HardEdges => {
+                let doubted = self.doubt_given && mesh.given_as == GivenAs::Edges;
+                let given = mesh.given_edges;
+                mark_given(
+                    topology,
+                    scores,
+                    mesh.sharp,
+                    given,
+                    doubted,
+                    self,
+                    &mut states,
+                );
+            }
+            GivenAs::Nothing => mark(topology, scores, mesh.sharp, labels, self, &mut states),
+            GivenAs::Labels => {
+                mark(topology, scores, mesh.sharp, labels, self, &mut states);
+                let unproved = |labels: &[FaceLabel], states: &[ContourState]| {
+                    let boundary = mark::boundary(topology, labels);
+                    stretches(ground, &boundary, self.rough_above_deg, states)
+                };
+                let rough: Vec<u32> = unproved(labels, &states)
+                    .into_iter()
+                    .filter_map(|(edge, straight)| (!straight).then_some(edge))
+                    .collect();
+                if !rough.is_empty() {
+                    *labels = straighten(
+                        mesh,
+                        &rough,
+                        std::env::var("LAMBDA")
+                            .ok()
+                            .and_then(|v| v.parse().ok())
+                            .unwrap_or(self.vote_weight),
+                    );
+                    mark(topology, scores, mesh.sharp, labels, self, &mut states);
+                }
+                for (edge, straight) in unproved(labels, &states) {
+                    if straight {
+                        states[edge as usize] = ContourState::Kept;
+                    }
+                }
+            }
+        }
+        states
     }
 }

@@ -5,6 +5,18 @@ use seamline_mesh::{Sets, Topology};
 
 use crate::ContourTrackingSettings;
 
+/// Edges between two labels, rising.
+pub(crate) fn boundary(topology: &Topology, labels: &[FaceLabel]) -> Vec<u32> {
+    let parts = |&edge: &u32| {
+        topology
+            .face_pair(edge as usize)
+            .is_some_and(|[a, b]| labels[a as usize] != labels[b as usize])
+    };
+    (0..topology.edge_faces.len() as u32)
+        .filter(parts)
+        .collect()
+}
+
 /// Writes the state of every edge: correct, kept or off the contours. Only edges between two labels are
 /// looked at.
 pub fn mark(
@@ -15,15 +27,7 @@ pub fn mark(
     settings: &ContourTrackingSettings,
     states: &mut [ContourState],
 ) {
-    let is_boundary = |edge: usize| {
-        topology
-            .face_pair(edge)
-            .is_some_and(|[a, b]| labels[a as usize] != labels[b as usize])
-    };
-    let boundary: Vec<u32> = (0..states.len())
-        .filter(|&edge| is_boundary(edge))
-        .map(|edge| edge as u32)
-        .collect();
+    let boundary = boundary(topology, labels);
     states.fill(ContourState::Off);
     for &edge in &boundary {
         let edge = edge as usize;
@@ -49,9 +53,8 @@ pub fn mark_given(
     states: &mut [ContourState],
 ) {
     states.fill(ContourState::Off);
-    let is_correct = |edge: u32| {
-        scores[edge as usize].0 < settings.correct_below_deg || sharp[edge as usize].0
-    };
+    let is_correct =
+        |edge: u32| scores[edge as usize].0 < settings.correct_below_deg || sharp[edge as usize].0;
     let (run_of, run_count) = runs(topology, given);
     let mut believed = vec![!doubted; run_count];
     for (&edge, &run) in given.iter().zip(&run_of) {

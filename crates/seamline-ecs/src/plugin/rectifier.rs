@@ -132,7 +132,7 @@ pub fn rectifier_systems(
             scores: &columns.scores,
             labels: &labels,
             given_edges: match columns.given.origin {
-                GivenAs::Labels => &[],
+                GivenAs::Nothing | GivenAs::Labels => &[],
                 GivenAs::Edges | GivenAs::HardEdges => &columns.given.edges,
             },
             given_as: columns.given.origin,

@@ -178,7 +178,10 @@ fn refused(job: Job, error: LoadError) -> Outcome {
     match &error {
         LoadError::Changed => Outcome::Changed { job },
         LoadError::Io(cause) if cause.kind() == io::ErrorKind::NotFound => Outcome::Gone { job },
-        LoadError::Io(_) | LoadError::NotAFile | LoadError::Mesh { .. } => {
+        LoadError::Io(_)
+        | LoadError::NotAFile
+        | LoadError::Mesh { .. }
+        | LoadError::Markings { .. } => {
             let failure = failure_of(&error);
             Outcome::Failed { job, failure }
         }

@@ -130,6 +130,7 @@ fn write_once(cut: &Cut) -> Result<(), OutputError> {
         hash: &mesh.hash,
         format: mesh.format,
         bytes_len: mesh.bytes_len,
+        markings: mesh.markings.as_ref(),
         settings: job.setup.pipeline.settings_in_force(),
         program_version: VERSION,
         read_seconds: mesh.took.as_secs_f64(),

@@ -28,8 +28,8 @@ pub use job::{
 pub use pipeline::{BuiltinSteps, InstallStep, Pipeline, PipelineKind, PipelineSettings, tables};
 pub use plugin::{
     Classifier, Clusters, CommandSettings, CurvatureSamples, EndFate, LabelledMesh, Labels,
-    MakeSystems, OpenEnd, OpenEnds, PluginChoice, PluginEntry, Rectifier, Registry, SwappableStage, classifier_systems,
-    rectifier_systems,
+    MakeSystems, OpenEnd, OpenEnds, PluginChoice, PluginEntry, Rectifier, Registry, SwappableStage,
+    classifier_systems, rectifier_systems,
 };
 pub use results::Segmentation;
 pub use stage::{Stage, StageSystems, StepError, fallible};

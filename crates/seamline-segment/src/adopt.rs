@@ -119,18 +119,20 @@ pub(crate) fn boundary(topology: &Topology, labels: &[FaceLabel]) -> Vec<u32> {
             .face_pair(edge as usize)
             .is_some_and(|[a, b]| labels[a as usize] != labels[b as usize])
     };
-    (0..topology.edge_faces.len() as u32).filter(parts).collect()
+    (0..topology.edge_faces.len() as u32)
+        .filter(parts)
+        .collect()
 }
 
 /// Labels faces alike that hang together without crossing one of the edges, numbered by lowest face.
 fn label_between(topology: &Topology, edges: &[u32], labels: &mut [FaceLabel]) {
     let mut is_given = vec![false; topology.edge_faces.len()];
-    edges.iter().for_each(|&edge| is_given[edge as usize] = true);
+    edges
+        .iter()
+        .for_each(|&edge| is_given[edge as usize] = true);
     let mut sets = Sets::new(labels.len());
     for (edge, given) in is_given.iter().enumerate() {
-        if !given
-            && let Some([a, b]) = topology.face_pair(edge)
-        {
+        if !given && let Some([a, b]) = topology.face_pair(edge) {
             sets.unite(a, b);
         }
     }

@@ -3,9 +3,9 @@
 use std::collections::BTreeMap;
 
 use glam::DVec3;
+use seamline_ecs::EndFate;
 use seamline_ecs::components::ContourState;
 use seamline_ecs::results::{BoundaryMeasure, Changes, EdgeChanges, OpenEndReport};
-use seamline_ecs::EndFate;
 
 use crate::adopt::boundary;
 use crate::boundaries::chains;

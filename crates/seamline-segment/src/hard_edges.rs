@@ -62,13 +62,16 @@ pub fn hard_edges(
         topology.face_pair(edge).is_some() && angles[edge].0.abs() > limit + ROUNDING
     };
     let mut runs = Sets::new(topology.vertex_edges.row_count());
-    let candidates: Vec<usize> = (0..angles.len()).filter(|&edge| turns(edge, weak)).collect();
+    let candidates: Vec<usize> = (0..angles.len())
+        .filter(|&edge| turns(edge, weak))
+        .collect();
     for &edge in &candidates {
         let [a, b] = topology.edge_vertices[edge];
         runs.unite(a, b);
     }
     let mut has_strong = vec![false; topology.vertex_edges.row_count()];
-    let run_of = |runs: &mut Sets, edge: usize| runs.first(topology.edge_vertices[edge][0]) as usize;
+    let run_of =
+        |runs: &mut Sets, edge: usize| runs.first(topology.edge_vertices[edge][0]) as usize;
     for &edge in candidates.iter().filter(|&&edge| turns(edge, strong)) {
         has_strong[run_of(&mut runs, edge)] = true;
     }
@@ -125,10 +128,7 @@ mod tests {
 
     #[test]
     fn a_weak_edge_that_continues_a_strong_one_is_hard() {
-        let topology = Topology::build(
-            5,
-            vec![[0, 1, 2], [0, 2, 3], [0, 3, 4], [0, 4, 1]],
-        );
+        let topology = Topology::build(5, vec![[0, 1, 2], [0, 2, 3], [0, 3, 4], [0, 4, 1]]);
         let angle = |ends: &[u32; 2]| match ends {
             [0, 1] => DihedralAngle(0.9),
             [0, 2] | [0, 4] => DihedralAngle(0.4),

@@ -7,7 +7,8 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use seamline_mesh::{
-    Format, Markings, MarkingsError, Mesh, ReadError, Wanted, read_bytes, tolerance_from_share, weld,
+    Format, Markings, MarkingsError, Mesh, ReadError, Wanted, read_bytes, tolerance_from_share,
+    weld,
 };
 
 use crate::tracker::Stamp;

@@ -33,7 +33,10 @@ pub fn run(args: &RectifyArgs) -> Result<Outcome> {
             Err(error) => return failed(file, error.into()),
         }
     }
-    let markings = loaded.markings.as_ref().map(|given| Arc::clone(&given.markings));
+    let markings = loaded
+        .markings
+        .as_ref()
+        .map(|given| Arc::clone(&given.markings));
     let done = Worker::new(pipeline)
         .run(Arc::clone(&loaded.mesh), markings)
         .map_err(Failure::from)

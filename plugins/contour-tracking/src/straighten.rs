@@ -19,7 +19,7 @@ const MANY: u32 = 8;
 const MINORITY_SHARE: f64 = 0.4;
 
 /// Rounds in which pieces learn of those further on.
-const ROUNDS: u32 = 8;
+const ROUNDS: u32 = 20;
 
 /// A label is given up only for one that is better by more than rounding.
 const BETTER: f64 = 1.0 + 1e-9;
@@ -41,6 +41,9 @@ pub fn straighten(mesh: &LabelledMesh<'_>, rough: &[u32], vote_weight: f64) -> V
     active.dedup();
     let mut labels = share_out(&pieces, &active, vote_weight);
     settle(&pieces, &active, vote_weight, &mut labels);
+    while move_groups(&pieces, &active, vote_weight, &mut labels) {
+        settle(&pieces, &active, vote_weight, &mut labels);
+    }
     let label = |&piece: &u32| FaceLabel(labels[piece as usize]);
     pieces.of_face.iter().map(label).collect()
 }
@@ -51,11 +54,7 @@ fn share_out(pieces: &Pieces, active: &[u32], vote_weight: f64) -> Vec<u32> {
     let mut leanings: Vec<Vec<(u32, f64)>> = (0..pieces.count())
         .map(|piece| pieces.votes(piece).to_vec())
         .collect();
-    for _ in 0..std::env::var("SOFT")
-        .ok()
-        .and_then(|v| v.parse().ok())
-        .unwrap_or(ROUNDS)
-    {
+    for _ in 0..ROUNDS {
         let next: Vec<Vec<(u32, f64)>> = active
             .par_iter()
             .with_min_len(256)
@@ -115,6 +114,53 @@ fn settle(pieces: &Pieces, active: &[u32], vote_weight: f64, labels: &mut [u32])
             }
         }
     }
+}
+
+/// Gives groups of pieces the label of least cost: those that hang together, have one label, and have faces that bore
+/// another. Of two strips that went over together neither goes back alone. True if any has changed.
+fn move_groups(pieces: &Pieces, active: &[u32], vote_weight: f64, labels: &mut [u32]) -> bool {
+    let doubtful: Vec<u32> = active
+        .iter()
+        .copied()
+        .filter(|&piece| pieces.votes(piece as usize).len() > 1)
+        .collect();
+    let place = |piece: u32| doubtful.binary_search(&piece).ok();
+    let mut sets = Sets::new(doubtful.len());
+    for (at, &piece) in doubtful.iter().enumerate() {
+        for &(other, _) in pieces.sides(piece as usize) {
+            if labels[other as usize] == labels[piece as usize]
+                && let Some(other) = place(other)
+            {
+                sets.unite(at as u32, other as u32);
+            }
+        }
+    }
+    let (group_of, count) = sets.numbered();
+    let mut groups: Vec<Vec<u32>> = vec![Vec::new(); count];
+    for (&piece, &group) in doubtful.iter().zip(&group_of) {
+        groups[group as usize].push(piece);
+    }
+    let mut changed = false;
+    for group in groups.iter().filter(|group| group.len() > 1) {
+        let votes = group.iter().flat_map(|&piece| {
+            let weight = vote_weight * pieces.perimeters[piece as usize];
+            let votes = pieces.votes(piece as usize).iter();
+            votes.map(move |&(label, share)| (label, weight * share))
+        });
+        let sides = group.iter().flat_map(|&piece| pieces.sides(piece as usize));
+        let sides = sides
+            .filter(|(other, _)| group.binary_search(other).is_err())
+            .map(|&(other, cost)| (labels[other as usize], cost));
+        let own = labels[group[0] as usize];
+        let best = most(&summed(votes.chain(sides)), Some(own));
+        if best != own {
+            changed = true;
+            group
+                .iter()
+                .for_each(|&piece| labels[piece as usize] = best);
+        }
+    }
+    changed
 }
 
 /// What is said for each label, by label.

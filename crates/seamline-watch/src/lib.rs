@@ -20,6 +20,7 @@ pub mod memory;
 pub mod metrics;
 pub mod mounts;
 pub mod outputs;
+pub mod pairs;
 pub mod quarantine;
 pub mod relocate;
 pub mod retry;

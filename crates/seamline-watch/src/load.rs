@@ -20,6 +20,8 @@ pub struct LoadedMesh {
     pub mesh: Arc<Mesh>,
     /// BLAKE3 of the file's bytes, in hexadecimal.
     pub hash: String,
+    /// What tells one job's input from another's: the hash, and with markings one of both hashes.
+    pub content: String,
     /// The format found.
     pub format: Format,
     /// Length of the file.
@@ -201,6 +203,7 @@ pub fn mesh_of(file: FileBytes, path: &Path, weld_share: f64) -> Result<LoadedMe
     let mesh = Arc::new(weld(polygons, tolerance));
     Ok(LoadedMesh {
         mesh,
+        content: hash.clone(),
         hash,
         format,
         bytes_len: stamp.size,
@@ -208,6 +211,12 @@ pub fn mesh_of(file: FileBytes, path: &Path, weld_share: f64) -> Result<LoadedMe
         took: took + started.elapsed(),
         markings: None,
     })
+}
+
+/// One hash of a mesh and its markings, out of those of both.
+pub fn content_of_pair(mesh: &str, markings: &str) -> String {
+    let both = format!("{mesh}+{markings}");
+    blake3::hash(both.as_bytes()).to_hex().to_string()
 }
 
 /// Reads what another tool has marked on a mesh.

@@ -45,7 +45,7 @@ fn write(shared: &Shared, cut: Cut) -> Outcome {
             return Outcome::Written {
                 result: result_of(&job),
                 patches: segmentation.patches.len(),
-                content: mesh.hash,
+                content: mesh.content,
                 job,
             };
         }
@@ -56,7 +56,7 @@ fn write(shared: &Shared, cut: Cut) -> Outcome {
         },
         Err(panicked) => panicked,
     };
-    let failure = failure.of(mesh.hash);
+    let failure = failure.of(mesh.content);
     Outcome::Failed { job, failure }
 }
 

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use bevy_ecs::prelude::*;
-use seamline_mesh::Findings;
+use seamline_mesh::{Findings, PolygonMesh};
 use serde::Serialize;
 
 use crate::plugin::EndFate;
@@ -23,6 +23,8 @@ pub struct Segmentation {
     pub vertices: VertexQuantities,
     /// What rectifying has changed, where boundaries were given; `None` where the mesh was segmented.
     pub changes: Option<Changes>,
+    /// The mesh whose triangles boundaries run through, where they may.
+    pub refined: Option<RefinedMesh>,
     /// What the mesh is and what was wrong with it.
     pub findings: Findings,
     /// One a stage, in order.
@@ -173,6 +175,27 @@ pub struct Boundary {
     /// The curves along edges that were added to the boundaries given; none where the mesh was segmented.
     #[serde(skip)]
     pub added: Vec<Vec<u32>>,
+}
+
+/// A mesh whose triangles were cut along its boundaries, in the file's unit.
+#[derive(Clone, Debug, Serialize)]
+pub struct RefinedMesh {
+    /// Vertices that were added, after those of the welded mesh.
+    pub vertices_added: usize,
+    /// The boundaries as they run now.
+    pub boundary: BoundaryMeasure,
+    /// Its vertices and triangles.
+    #[serde(skip)]
+    pub polygons: PolygonMesh,
+    /// The patch of each triangle.
+    #[serde(skip)]
+    pub patches: Vec<u32>,
+    /// Curvature at each vertex.
+    #[serde(skip)]
+    pub vertices: VertexQuantities,
+    /// The curves of each pair of patches.
+    #[serde(skip)]
+    pub curves: Vec<([u32; 2], Vec<Vec<u32>>)>,
 }
 
 /// What rectifying has changed of the boundaries given. Lengths are in the file's unit, vertices those of the

@@ -20,6 +20,7 @@ pub(crate) fn changes(rows: &LabelledRows, given: Given) -> Changes {
         edges: before,
         contours,
         open_ends: ends,
+        ..
     } = given;
     let after = boundary(rows.bending.topology, rows.labels);
     let is_crease = |edge: &u32| contours[*edge as usize] == ContourState::Crease;
@@ -33,6 +34,15 @@ pub(crate) fn changes(rows: &LabelledRows, given: Given) -> Changes {
     let curves = |edges: &[u32]| {
         let ends: Vec<[u32; 2]> = edges.iter().map(|&edge| mesh_edge(rows, edge)).collect();
         chains(&ends)
+    };
+    let measured = |edges: &[u32]| {
+        let topology = rows.bending.topology;
+        let ends: Vec<[u32; 2]> = edges
+            .iter()
+            .map(|&edge| topology.edge_vertices[edge as usize])
+            .collect();
+        let at = |row: u32| rows.bending.positions[row as usize].0;
+        measure(&ends, at, rows.length)
     };
     let count = |fate| ends.iter().filter(|end| end.fate == fate).count();
     let mut open_ends: Vec<OpenEndReport> = ends
@@ -56,8 +66,8 @@ pub(crate) fn changes(rows: &LabelledRows, given: Given) -> Changes {
             removed: gone.len(),
             creases: creases.len(),
         },
-        before: measure(rows, before),
-        after: measure(rows, &after),
+        before: measured(before),
+        after: measured(&after),
         removed_curves: curves(&gone),
         crease_curves: curves(&creases),
     }
@@ -69,19 +79,21 @@ pub(crate) fn mesh_edge(rows: &LabelledRows, edge: u32) -> [u32; 2] {
         .map(|row| rows.order.vertex_of_row[row as usize])
 }
 
-/// Length of some edges together, and how they turn where two of them meet and no more.
-fn measure(rows: &LabelledRows, edges: &[u32]) -> BoundaryMeasure {
-    let topology = rows.bending.topology;
-    let mut at: BTreeMap<u32, Vec<DVec3>> = BTreeMap::new();
+/// Length of some edges together, given by their ends, and how they turn where two of them meet and no more.
+pub(crate) fn measure(
+    edges: &[[u32; 2]],
+    at: impl Fn(u32) -> DVec3,
+    unit_length: f64,
+) -> BoundaryMeasure {
+    let mut leaving: BTreeMap<u32, Vec<DVec3>> = BTreeMap::new();
     let mut length = 0.0;
-    for &edge in edges {
-        let along = rows.bending.along(edge);
+    for &[from, to] in edges {
+        let along = at(to) - at(from);
         length += along.length();
-        let [from, to] = topology.edge_vertices[edge as usize];
-        at.entry(from).or_default().push(along);
-        at.entry(to).or_default().push(-along);
+        leaving.entry(from).or_default().push(along);
+        leaving.entry(to).or_default().push(-along);
     }
-    let turns: Vec<f64> = at
+    let turns: Vec<f64> = leaving
         .values()
         .filter_map(|leaving| match leaving[..] {
             [a, b] => Some((-a).angle_between(b).to_degrees()),
@@ -92,9 +104,12 @@ fn measure(rows: &LabelledRows, edges: &[u32]) -> BoundaryMeasure {
     let many = turns.len().max(1) as f64;
     BoundaryMeasure {
         edges: edges.len(),
-        length: length * rows.length,
+        length: length * unit_length,
         mean_turn_deg: turns.iter().sum::<f64>() / many,
         sharp_turn_share: sharp as f64 / many,
-        open_ends: at.values().filter(|leaving| leaving.len() == 1).count(),
+        open_ends: leaving
+            .values()
+            .filter(|leaving| leaving.len() == 1)
+            .count(),
     }
 }

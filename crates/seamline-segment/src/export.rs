@@ -17,12 +17,20 @@ use crate::changes::{changes, mesh_edge};
 use crate::curvature::principal_frames;
 use crate::eigen::free_principal_frame;
 use crate::face_patches::{FacePatches, number_patches};
+use crate::refine::{RefinedRows, refine_boundaries};
+use crate::refined::refined_mesh;
 use crate::spatial_order::SpatialOrder;
 use crate::surfaces::{SurfaceSettings, patch_surfaces};
 use crate::tensor::{Bending, BendingColumns, TensorForm, face_tensors, over, vertex_tensors};
 
-pub(crate) fn systems() -> StageSystems {
-    number.pipe(collect).pipe(make_rows).in_set(Stage::Export)
+/// With `refines` boundaries may run through triangles.
+pub(crate) fn systems(refines: bool) -> StageSystems {
+    let export = number.pipe(collect).pipe(make_rows);
+    if refines {
+        (refine_boundaries, export).chain().in_set(Stage::Export)
+    } else {
+        export.in_set(Stage::Export)
+    }
 }
 
 fn number(
@@ -82,6 +90,7 @@ struct GivenColumns<'w, 's> {
     boundary: Res<'w, GivenBoundary>,
     contours: Column<'w, 's, ContourState>,
     open_ends: Res<'w, OpenEnds>,
+    refined: Res<'w, RefinedRows>,
 }
 
 impl GivenColumns<'_, '_> {
@@ -90,6 +99,7 @@ impl GivenColumns<'_, '_> {
             edges: &self.boundary.edges,
             contours: &self.contours,
             open_ends: &self.open_ends.0,
+            refined: (!self.refined.triangles.is_empty()).then_some(&*self.refined),
         })
     }
 }
@@ -103,6 +113,8 @@ pub struct Given<'a> {
     pub contours: &'a [ContourState],
     /// What has become of the open ends.
     pub open_ends: &'a [OpenEnd],
+    /// The mesh whose triangles boundaries run through, if they may.
+    pub refined: Option<&'a RefinedRows>,
 }
 
 /// A finished mesh in rows.
@@ -127,11 +139,14 @@ pub struct LabelledRows<'a> {
 pub fn describe(mesh: &Mesh, rows: &LabelledRows, patches: FacePatches) -> Segmentation {
     let boundaries = boundaries(rows);
     let summaries = summaries(rows, &patches);
+    let vertices = vertex_quantities(rows);
+    let refined = rows.given.and_then(|given| given.refined);
     Segmentation {
         face_patches: patches.of_face,
         patches: with_neighbours(summaries, &boundaries),
         boundaries,
-        vertices: vertex_quantities(rows),
+        refined: refined.map(|refined| refined_mesh(mesh, rows, refined, &vertices)),
+        vertices,
         changes: rows.given.map(|given| changes(rows, given)),
         findings: findings(mesh, rows.bending.topology),
         stages: Vec::new(),

@@ -20,6 +20,8 @@ mod hard_edges;
 mod import;
 mod merge;
 mod reduction;
+mod refine;
+mod refined;
 mod region_graph;
 mod rounding;
 mod score;
@@ -49,6 +51,7 @@ pub use hard_edges::{HardEdgeSettings, hard_edges};
 pub use import::{Laid, MeshSettings, ScaleBy, lay_out};
 pub use merge::{MergeSettings, RegionDistance};
 pub use reduction::reduce;
+pub use refine::{RefineSettings, RefinedRows, refine};
 pub use region_graph::{Link, Merged, RegionGraph};
 pub use score::{ScoreSettings, angle_score, curvature_score, facet_scores, vertex_scores};
 pub use sharp::{SharpSettings, dihedral_angles, sharp_edges, sharp_vertices};
@@ -69,10 +72,11 @@ pub fn builtin_steps() -> BuiltinSteps {
             SettingsTable::of::<FacetSettings>(),
             SettingsTable::of::<MergeSettings>(),
             SettingsTable::of::<ScoreSettings>(),
+            SettingsTable::of::<RefineSettings>(),
         ],
         install,
         idle: |kind| match kind {
-            PipelineKind::Segment => &[HardEdgeSettings::TABLE],
+            PipelineKind::Segment => &[HardEdgeSettings::TABLE, RefineSettings::TABLE],
             PipelineKind::Rectify => &[SurfaceSettings::TABLE, MergeSettings::TABLE],
         },
     }
@@ -88,6 +92,7 @@ fn install(in_force: &Table) -> Result<InstallStep, SettingsError> {
     let facets: FacetSettings = read(in_force)?;
     let merge: MergeSettings = read(in_force)?;
     let score: ScoreSettings = read(in_force)?;
+    let refine: RefineSettings = read(in_force)?;
 
     Ok(Arc::new(
         move |world: &mut World, schedule: &mut Schedule| {
@@ -99,6 +104,7 @@ fn install(in_force: &Table) -> Result<InstallStep, SettingsError> {
                 enabled: surfaces.enabled && kind == PipelineKind::Segment,
                 ..surfaces.clone()
             });
+            world.insert_resource(RefinedRows::default());
             world.insert_resource(Settled::default());
             world.insert_resource(curvature.clone());
             world.insert_resource(facets.clone());
@@ -120,7 +126,8 @@ fn install(in_force: &Table) -> Result<InstallStep, SettingsError> {
                 Carrier::Vertices => score::vertex_systems(),
                 Carrier::Facets => score::facet_systems(),
             });
-            schedule.add_systems(export::systems());
+            let refines = refine.enabled && kind == PipelineKind::Rectify;
+            schedule.add_systems(export::systems(refines));
         },
     ))
 }

@@ -12,7 +12,6 @@ use std::str::FromStr;
 
 use schemars::JsonSchema;
 use seamline_ecs::Segmentation;
-use seamline_ecs::results::Boundary;
 use seamline_ecs::settings::SettingsError;
 use seamline_mesh::Mesh;
 use seamline_mesh::write::{
@@ -219,7 +218,8 @@ fn write_one(
     match file {
         OutputFile::Labels => write_labels(out, &segmentation.face_patches),
         OutputFile::Patches => {
-            let of = &segmentation.vertices;
+            let refined = segmentation.refined.as_ref();
+            let of = refined.map_or(&segmentation.vertices, |refined| &refined.vertices);
             let quantities = VertexQuantities {
                 k_min: &of.k_min,
                 k_max: &of.k_max,
@@ -230,11 +230,16 @@ fn write_one(
             let types: Option<Vec<u8>> = types
                 .map(|patch| patch.surface.map(|surface| surface.shape.number()))
                 .collect();
-            let patches = &segmentation.face_patches;
-            write_ply(out, &mesh.polygons, quantities, patches, types.as_deref())
+            let (polygons, patches) = match refined {
+                Some(refined) => (&refined.polygons, &refined.patches),
+                None => (&mesh.polygons, &segmentation.face_patches),
+            };
+            write_ply(out, polygons, quantities, patches, types.as_deref())
         }
         OutputFile::Boundaries => {
-            write_polylines(out, mesh.positions(), &curve_groups(segmentation))
+            let refined = segmentation.refined.as_ref();
+            let positions = refined.map_or(mesh.positions(), |refined| &refined.polygons.positions);
+            write_polylines(out, positions, &curve_groups(segmentation))
         }
         OutputFile::Report => {
             serde_json::to_writer_pretty(&mut *out, &report(mesh, segmentation, about))?;
@@ -246,16 +251,22 @@ fn write_one(
 /// The curves of each pair of patches. Where boundaries were given, those that were kept are `old` and those that were
 /// added `new`; what was removed and what lies inside one patch are groups of their own.
 fn curve_groups(segmentation: &Segmentation) -> Vec<CurveGroup<'_>> {
+    if let Some(refined) = &segmentation.refined {
+        let curves = refined.curves.iter();
+        return curves
+            .map(|(patches, polylines)| group_of(*patches, "", polylines))
+            .collect();
+    }
     let Some(changes) = &segmentation.changes else {
         let boundaries = segmentation.boundaries.iter();
         return boundaries
-            .map(|boundary| group_of(boundary, "", &boundary.polylines))
+            .map(|boundary| group_of(boundary.patches, "", &boundary.polylines))
             .collect();
     };
     let of_patches = segmentation.boundaries.iter().flat_map(|boundary| {
         [
-            group_of(boundary, " old", &boundary.polylines),
-            group_of(boundary, " new", &boundary.added),
+            group_of(boundary.patches, " old", &boundary.polylines),
+            group_of(boundary.patches, " new", &boundary.added),
         ]
     });
     let others = [
@@ -270,8 +281,7 @@ fn curve_groups(segmentation: &Segmentation) -> Vec<CurveGroup<'_>> {
     all.filter(|group| !group.polylines.is_empty()).collect()
 }
 
-fn group_of<'a>(boundary: &Boundary, mark: &str, polylines: &'a [Vec<u32>]) -> CurveGroup<'a> {
-    let [a, b] = boundary.patches;
+fn group_of<'a>([a, b]: [u32; 2], mark: &str, polylines: &'a [Vec<u32>]) -> CurveGroup<'a> {
     CurveGroup {
         names: format!("patch_{a}_patch_{b}{mark}"),
         polylines,

@@ -86,6 +86,7 @@ pub fn in_one_patch(mesh: &Mesh) -> Segmentation {
             d_max: vec![[0.0; 3]; vertices],
         },
         changes: None,
+        refined: None,
         findings: examine(mesh, &Topology::build(vertices, mesh.triangles.clone())),
         stages: Vec::new(),
     }

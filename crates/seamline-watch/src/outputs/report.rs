@@ -6,7 +6,7 @@
 use std::path::Path;
 
 use seamline_ecs::Segmentation;
-use seamline_ecs::results::{Boundary, Changes, PatchReport};
+use seamline_ecs::results::{Boundary, Changes, PatchReport, RefinedMesh};
 use seamline_mesh::{Findings, Format, Markings, Mesh};
 use serde::Serialize;
 use serde_json::{Map, Value, json};
@@ -49,6 +49,8 @@ struct Report<'a> {
     boundaries: &'a [Boundary],
     #[serde(skip_serializing_if = "Option::is_none")]
     changes: Option<&'a Changes>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    refined: Option<&'a RefinedMesh>,
     seconds: Map<String, Value>,
 }
 
@@ -110,6 +112,7 @@ pub fn report<'a>(
         patches: &segmentation.patches,
         boundaries: &segmentation.boundaries,
         changes: segmentation.changes.as_ref(),
+        refined: segmentation.refined.as_ref(),
         seconds: seconds(segmentation, about.read_seconds),
     }
 }

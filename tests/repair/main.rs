@@ -2,8 +2,9 @@
 //!
 //! `cargo run --release -p seamline-tests --example repair`: the table of `plugins/REPAIR.md`. Arguments are settings,
 //! as `contour-tracking.open_ends=bridge`, or `only=WORD` for the models whose name has a word, `each` to see each of
-//! them, and `write=DIR` for labels before and after as files.
+//! them, and `write=DIR` for labels before and after as files. `cost` prints what rectifying costs beside segmenting instead.
 
+mod cost;
 mod damage;
 mod models;
 
@@ -20,6 +21,12 @@ use damage::{Damage, Damaged};
 use models::{Model, VARIANTS, models};
 
 fn main() {
+    if env::args()
+        .nth(1)
+        .is_some_and(|argument| argument == "cost")
+    {
+        return cost::print();
+    }
     let Some(models) = models() else { return };
     let [mut only, mut each, mut write] = [String::new(), String::new(), String::new()];
     let mut settings = vec!["pipeline.kind=rectify".to_owned()];

@@ -97,7 +97,8 @@ mod tests {
             .collect();
         let topology = Topology::build(2 * count as usize + 2, triangles);
         let angle = |ends: &[u32; 2]| {
-            let rung = (ends[0] % 2 == 0 && ends[1] == ends[0] + 1).then(|| ends[0] as usize / 2);
+            let rung =
+                (ends[0].is_multiple_of(2) && ends[1] == ends[0] + 1).then(|| ends[0] as usize / 2);
             let inner = rung.filter(|&rung| rung > 0 && rung <= rungs.len());
             DihedralAngle(inner.map_or(0.0, |rung| rungs[rung - 1].to_radians()))
         };

@@ -249,9 +249,9 @@ impl Pieces {
             .iter()
             .for_each(|&(piece, ..)| starts[piece as usize + 1][1] += 1);
         for piece in 0..count {
-            for kind in 0..2 {
-                starts[piece + 1][kind] += starts[piece][kind];
-            }
+            let [votes, sides] = starts[piece];
+            starts[piece + 1][0] += votes;
+            starts[piece + 1][1] += sides;
         }
         Self {
             of_face,

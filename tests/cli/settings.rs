@@ -46,6 +46,46 @@ fn the_command_line_beats_the_environment_which_beats_the_file_which_beats_the_d
 }
 
 #[test]
+fn merging_tells_the_threshold_it_found_and_that_threshold_gives_the_same_patches() {
+    let home = home();
+    let merged = |threshold: &str| {
+        let line = format!(
+            "segment bracket.obj --json --set surfaces.enabled=false --set merge.threshold={threshold}"
+        );
+        let report = home.run(&line).json();
+        let stages = report["stages"].as_array().unwrap();
+        let merge = stages.iter().find(|stage| stage["stage"] == "merge");
+        let told = merge.unwrap()["measures"]["threshold"].as_f64();
+        (told.unwrap(), report["patches"].clone())
+    };
+    let (found, patches) = merged("auto");
+    assert!((0.4..=1.0).contains(&found) && found != 0.65, "{found}");
+    assert_eq!(merged(&found.to_string()), (found, patches));
+
+    let line = "segment bracket.obj -v --set surfaces.enabled=false --set merge.threshold=auto";
+    let told = home.run(line).ended(0).err;
+    assert!(told.contains(&format!("threshold {found:.3}")), "{told}");
+}
+
+/// Neither a number of regions nor patches that surfaces have settled are a matter of threshold.
+#[test]
+fn where_no_threshold_decides_none_is_told() {
+    let home = home();
+    for setting in ["merge.regions=3", "surfaces.enabled=true"] {
+        let line = format!("segment bracket.obj --json --set {setting}");
+        let report = home.run(&line).json();
+        let stages = report["stages"].as_array().unwrap();
+        assert_eq!(stages.len(), 11);
+        assert!(
+            stages
+                .iter()
+                .all(|stage| stage["measures"] == serde_json::json!({})),
+            "{setting}: {stages:#?}"
+        );
+    }
+}
+
+#[test]
 fn the_environment_reaches_tables_whose_name_has_a_dash() {
     let set = [("SEAMLINE_CONTOUR_TRACKING__CORRECT_BELOW_DEG", "5")];
     let settings = home().settings_in_force("", &set);

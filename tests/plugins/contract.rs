@@ -1,16 +1,22 @@
 //! The contract holds for all plugins there are, and what breaks it is told.
 
+use std::sync::Arc;
+
+use bevy_ecs::prelude::*;
+use glam::DVec3;
 use schemars::JsonSchema;
 use seamline_ecs::components::{FaceLabel, SampleCluster};
 use seamline_ecs::contract::{Trial, check};
-use seamline_ecs::settings::{Profile, StepSettings};
+use seamline_ecs::settings::{Profile, SettingsError, StepSettings};
 use seamline_ecs::{
-    Classifier, Clusters, CurvatureSamples, LabelledMesh, Labels, PluginChoice, Rectifier,
-    Registry, StepError, SwappableStage,
+    BuiltinSteps, Classifier, Clusters, CurvatureSamples, InstallStep, LabelledMesh, Labels,
+    PluginChoice, Rectifier, Registry, Stage, StepError, SwappableStage, fallible,
 };
+use seamline_mesh::shapes;
 use seamline_segment::builtin_steps;
-use seamline_tests::{run, seamline};
+use seamline_tests::{count, run, seamline, segment};
 use serde::{Deserialize, Serialize};
+use toml::Table;
 
 fn trials(registry: &Registry, stage: SwappableStage, name: &str) -> Vec<Trial> {
     let choice = PluginChoice::Named(name.to_owned());
@@ -36,6 +42,78 @@ fn every_registered_plugin_keeps_the_contract() {
     for entry in registry.entries() {
         let broken = broken(&registry, entry.stage, entry.name);
         assert!(broken.is_empty(), "{}: {broken:#?}", entry.name);
+    }
+}
+
+#[test]
+fn one_shape_of_the_contract_has_no_samples() {
+    let all = trials(
+        &seamline_plugins::registry(),
+        SwappableStage::Classify,
+        "kmeans",
+    );
+    let without = all
+        .iter()
+        .find(|trial| trial.of.starts_with("a cube without samples"));
+    assert!(without.is_some_and(|trial| trial.breaks.is_empty()));
+
+    let cube = shapes::cuboid(DVec3::ONE).polygons();
+    let settings = ["pipeline.profile=lavoue2005", "sharp.enrich=false"];
+    let cut = segment(cube, &settings);
+    assert_eq!(count(&cut, "curvature", "samples"), 0);
+    assert_eq!(cut.patches.len(), 6);
+}
+
+/// The built-in steps with one more, in the stage of curvature, that fails.
+fn fails_early(in_force: &Table) -> Result<InstallStep, SettingsError> {
+    with_a_failure(in_force, Stage::Curvature)
+}
+
+/// As [`fails_early`], after all plugins.
+fn fails_late(in_force: &Table) -> Result<InstallStep, SettingsError> {
+    with_a_failure(in_force, Stage::Export)
+}
+
+fn with_a_failure(in_force: &Table, stage: Stage) -> Result<InstallStep, SettingsError> {
+    let steps = (builtin_steps().install)(in_force)?;
+    let fail = || Err(StepError::new("it rains", "wait"));
+    Ok(Arc::new(
+        move |world: &mut World, schedule: &mut Schedule| {
+            steps(world, schedule);
+            schedule.add_systems(fallible(fail).in_set(stage));
+        },
+    ))
+}
+
+#[test]
+fn a_failure_of_another_stage_is_told_as_one_before_or_after_the_plugin() {
+    type Install = fn(&Table) -> Result<InstallStep, SettingsError>;
+    for (install, said) in [
+        (
+            fails_early as Install,
+            "was not asked, because an earlier stage fails: curvature: it rains",
+        ),
+        (
+            fails_late as Install,
+            "its answer makes a later stage fail: export: it rains",
+        ),
+    ] {
+        let steps = BuiltinSteps {
+            install,
+            ..builtin_steps()
+        };
+        for (stage, name) in [
+            (SwappableStage::Classify, "kmeans"),
+            (SwappableStage::Rectify, "graph-cut"),
+        ] {
+            let choice = PluginChoice::Named(name.to_owned());
+            let trials = check(&steps, &seamline_plugins::registry(), stage, &choice).unwrap();
+            let of_meshes = &trials[1..];
+            assert!(!of_meshes.is_empty());
+            for trial in of_meshes {
+                assert_eq!(trial.breaks, [said], "{name}: {}", trial.of);
+            }
+        }
     }
 }
 

@@ -1,9 +1,13 @@
 //! The example programs of `plugins/command`, where what they need is installed.
 
+use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
+use seamline_tests::daemon::Home;
 use seamline_tests::{run, seamline};
+
+use crate::walk::block;
 
 fn examples() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../plugins/command/examples")
@@ -20,14 +24,13 @@ fn works(program: &str, arguments: &[&str]) -> bool {
     quiet.status().is_ok_and(|status| status.success())
 }
 
-/// A Python with pyarrow and scikit-learn: that of `SEAMLINE_TEST_PYTHON`, else `python3`.
-fn python() -> Option<String> {
-    let python = std::env::var("SEAMLINE_TEST_PYTHON").unwrap_or("python3".to_owned());
-    if works(&python, &["-c", "import pyarrow, sklearn"]) {
-        return Some(python);
+/// Is there a Python that has all these? If not, a word on standard error.
+fn python_has(modules: &str) -> bool {
+    let has = works("python3", &["-c", &format!("import {modules}")]);
+    if !has {
+        eprintln!("SKIPPED: no python3 with {modules}");
     }
-    eprintln!("SKIPPED: {python} has no pyarrow and scikit-learn");
-    None
+    has
 }
 
 #[track_caller]
@@ -42,9 +45,33 @@ fn keeps_the_contract(stage: &str, command: &[&str]) {
 
 #[test]
 fn the_classifier_in_python_keeps_the_contract() {
-    if let Some(python) = python() {
-        keeps_the_contract("classify", &[&python, "birch.py"]);
+    if python_has("pyarrow, sklearn") {
+        keeps_the_contract("classify", &["python3", "birch.py"]);
     }
+}
+
+#[test]
+fn the_classifier_of_the_readme_keeps_the_contract_and_cuts_a_part() {
+    if !python_has("pyarrow, numpy") {
+        return;
+    }
+    let page = fs::read_to_string(examples().join("../../README.md")).unwrap();
+    let home = Home::new();
+    let program = home.at("steep.py");
+    fs::write(&program, block(&page, "`steep.py`", "python")).unwrap();
+    let steep = program.to_str().unwrap();
+
+    let mut check = seamline();
+    check.args(["plugins", "check", "--send", "samples", "python3", steep]);
+    let kept = run(&mut check).ended(0);
+    assert!(kept.out.ends_with("keeps the contract\n"), "{}", kept.out);
+
+    let shaft = Path::new(env!("CARGO_MANIFEST_DIR")).join("data/shaft.stl");
+    let chosen = format!("{{ command = ['python3', '{steep}'], send = ['samples'] }}");
+    let mut segment = seamline();
+    segment.args(["segment", "--json", "--classifier", &chosen, "-o"]);
+    let report = run(segment.arg(home.at("out")).arg(shaft)).json();
+    assert_eq!(report["stages"][5]["counts"]["clusters"], 3);
 }
 
 /// An empty input ends a program that has all it needs with status 0.

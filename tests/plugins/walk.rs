@@ -8,7 +8,7 @@ use std::process::Command;
 use seamline_tests::run;
 
 /// The first block of a language after a text.
-fn block<'a>(page: &'a str, after: &str, language: &str) -> &'a str {
+pub fn block<'a>(page: &'a str, after: &str, language: &str) -> &'a str {
     let (_, rest) = page.split_once(after).expect("the page names the file");
     let (_, rest) = rest
         .split_once(&format!("```{language}\n"))

@@ -52,9 +52,44 @@ pub struct MeshScale {
     pub length: f64,
 }
 
+/// The patch of each face where a step before Classify has found them already; else `None`. Where there are, the
+/// classifier is not asked.
+#[derive(Resource, Clone, Debug, Default)]
+pub struct Settled(pub Option<Vec<u32>>);
+
+impl Settled {
+    /// Is there something left to classify?
+    pub(crate) fn not_yet(settled: Res<Self>) -> bool {
+        settled.0.is_none()
+    }
+}
+
 /// The first failure of a step, if any: the stages after it are skipped.
 #[derive(Resource, Default)]
 pub struct JobFailure(pub Option<StepError>);
+
+/// What the steps measured on the mesh and have to tell, for the report: the threshold that was found, ...
+#[derive(Resource, Default)]
+pub struct Measures(Vec<(Stage, &'static str, f64)>);
+
+impl Measures {
+    /// Notes one finite number. JSON has no others.
+    pub fn note(&mut self, stage: Stage, name: &'static str, value: f64) {
+        debug_assert!(value.is_finite(), "{name} is {value}");
+        self.0.push((stage, name, value));
+    }
+
+    /// What a stage noted.
+    pub fn of(&self, stage: Stage) -> impl Iterator<Item = (&'static str, f64)> {
+        let of_stage = self.0.iter().filter(move |(s, ..)| *s == stage);
+        of_stage.map(|&(_, name, value)| (name, value))
+    }
+
+    /// Forgets everything.
+    pub fn clear(&mut self) {
+        self.0.clear();
+    }
+}
 
 /// Numbers the steps have to tell, for the report: sharp edges, clusters, regions grown, ...
 #[derive(Resource, Default)]

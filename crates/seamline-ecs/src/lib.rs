@@ -23,7 +23,8 @@ mod worker;
 
 pub use column::{Column, ColumnMut};
 pub use job::{
-    Counts, GivenAs, GivenBoundary, InputMarkings, InputMesh, JobFailure, MeshScale, MeshTopology,
+    Counts, GivenAs, GivenBoundary, InputMarkings, InputMesh, JobFailure, Measures, MeshScale,
+    MeshTopology, Settled,
 };
 pub use pipeline::{BuiltinSteps, InstallStep, Pipeline, PipelineKind, PipelineSettings, tables};
 pub use plugin::{

@@ -69,6 +69,9 @@ impl StepSettings for PipelineSettings {
 pub struct BuiltinSteps {
     /// One a step.
     pub tables: Vec<SettingsTable>,
+    /// Defaults in place of the profile's where a classifier other than the first registered is chosen, so that
+    /// it is asked: `(table, key, value)`.
+    pub with_chosen_classifier: &'static [(&'static str, &'static str, bool)],
     /// Reads the tables in force and gives what installs the steps.
     pub install: fn(&Table) -> Result<InstallStep, SettingsError>,
     /// The tables that have no part in a pipeline of this kind.
@@ -96,7 +99,12 @@ impl Pipeline {
         given: &Table,
     ) -> Result<Self, SettingsError> {
         let chosen_profile = profile(given)?;
-        let mut in_force = settings::resolve(&tables(builtin, registry), chosen_profile, given)?;
+        let tables = tables(builtin, registry);
+        let mut in_force = settings::resolve(&tables, chosen_profile, given)?;
+        if chooses_classifier(&in_force, registry)? {
+            let given = with_defaults(given, builtin.with_chosen_classifier);
+            in_force = settings::resolve(&tables, chosen_profile, &given)?;
+        }
         let mut pipeline: PipelineSettings = settings::read(&in_force)?;
 
         let mut install = vec![(builtin.install)(&in_force)?];
@@ -192,6 +200,32 @@ fn profile(given: &Table) -> Result<Profile, SettingsError> {
 }
 
 /// The systems of the plugin chosen, if there is one, and the name it has put in the choice.
+/// Is the classifier another than is taken where none is named?
+fn chooses_classifier(in_force: &Table, registry: &Registry) -> Result<bool, SettingsError> {
+    let pipeline: PipelineSettings = settings::read(in_force)?;
+    let usual = registry.default_of(SwappableStage::Classify);
+    Ok(match pipeline.classifier {
+        PluginChoice::Command(_) => true,
+        PluginChoice::Named(name) => !name.is_empty() && usual.is_none_or(|it| it.name != name),
+    })
+}
+
+/// What is given, and `defaults` for what is not.
+fn with_defaults(given: &Table, defaults: &[(&str, &str, bool)]) -> Table {
+    let mut all = given.clone();
+    for &(table, key, value) in defaults {
+        let table = all
+            .entry(table)
+            .or_insert_with(|| Value::Table(Table::new()));
+        if let Value::Table(table) = table
+            && !table.contains_key(key)
+        {
+            table.insert(key.to_owned(), Value::Boolean(value));
+        }
+    }
+    all
+}
+
 fn choose(
     registry: &Registry,
     stage: SwappableStage,

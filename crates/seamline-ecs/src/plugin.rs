@@ -24,8 +24,8 @@
 //! the wrong length or out of range is one too, made here and named. It ends the job, not the worker; in
 //! the daemon so do a panic and a plugin that does not come back (`limits.job_timeout_s`).
 //!
-//! **Degenerate meshes.** There may be no samples at all (every vertex of a cube is sharp), all may be equal,
-//! and areas may be zero. Columns hold finite numbers only.
+//! **Degenerate meshes.** There may be no samples at all (every vertex of a cube is sharp, where nothing is
+//! enriched), all may be equal, and areas may be zero. Columns hold finite numbers only.
 //!
 //! `seamline plugins check NAME` puts a plugin to the test of all this ([`crate::contract`]).
 

@@ -274,4 +274,7 @@ pub struct StageRecord {
     pub seconds: f64,
     /// What its steps counted.
     pub counts: BTreeMap<&'static str, u64>,
+    /// What its steps measured, each in the unit of the setting of that name: the `threshold` at which merging
+    /// stopped.
+    pub measures: BTreeMap<&'static str, f64>,
 }

@@ -10,7 +10,9 @@ use rayon::{ThreadPool, ThreadPoolBuilder};
 use seamline_mesh::{Markings, Mesh};
 use thiserror::Error;
 
-use crate::job::{Counts, GivenBoundary, InputMarkings, InputMesh, JobFailure, MeshTopology};
+use crate::job::{
+    Counts, GivenBoundary, InputMarkings, InputMesh, JobFailure, Measures, MeshTopology, Settled,
+};
 use crate::pipeline::Pipeline;
 use crate::plugin::OpenEnds;
 use crate::results::{Segmentation, StageRecord};
@@ -119,6 +121,7 @@ impl Worker {
         }
         self.world.insert_resource(JobFailure::default());
         self.world.resource_mut::<Counts>().clear();
+        self.world.resource_mut::<Measures>().clear();
         let clock = StageClock {
             last: Instant::now(),
             seconds: [0.0; Stage::ALL.len()],
@@ -159,12 +162,14 @@ impl Worker {
             hint: "the pipeline lacks its built-in steps".to_owned(),
         })?;
         let counts = self.world.resource::<Counts>();
+        let measures = self.world.resource::<Measures>();
         segmentation.stages = Stage::ALL
             .into_iter()
             .map(|stage| StageRecord {
                 stage,
                 seconds: clock.seconds[stage as usize],
                 counts: counts.of(stage).collect(),
+                measures: measures.of(stage).collect(),
             })
             .collect();
         Ok(segmentation)
@@ -178,6 +183,8 @@ fn fresh(pipeline: &Pipeline, progress: &Progress) -> (World, Schedule) {
     world.init_resource::<Counts>();
     world.init_resource::<GivenBoundary>();
     world.init_resource::<OpenEnds>();
+    world.init_resource::<Settled>();
+    world.init_resource::<Measures>();
 
     let mut schedule = Schedule::default();
     schedule.set_executor(SingleThreadedExecutor::new());

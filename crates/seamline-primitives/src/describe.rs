@@ -3,12 +3,12 @@
 use glam::DVec3;
 
 use crate::Fitted;
-use crate::guess::{Neighbourhood, guesses};
 use crate::hypothesis::{Hypothesis, View};
 use crate::parts::{Form, Parts};
 use crate::refine::refine_patiently;
 use crate::regions::Regions;
 use crate::surface::{Kind, Surface};
+use crate::whole::whole;
 
 /// Most vertices the last fit looks at.
 const MOST_POINTS: usize = 2000;
@@ -21,50 +21,17 @@ pub(crate) fn surfaces(
     part_of: &[u32],
     tolerance: f64,
 ) -> Vec<Option<Fitted>> {
-    let mut pieces_of = vec![Vec::new(); parts.forms.len()];
-    for (piece, &part) in parts.of_piece.iter().enumerate() {
-        pieces_of[part as usize].push(piece as u32);
-    }
+    let pieces_of = parts.pieces();
     let of_part = |part: u32| match parts.forms.get(part as usize) {
         Some(Form::Surface(region)) => Some(fitted(view, &regions.all[*region as usize])),
         Some(Form::Plane) => Some(plane(view, pieces_of[part as usize][0])),
-        Some(Form::Free) => whole(view, &pieces_of[part as usize], tolerance),
+        Some(Form::Free) => {
+            whole(view, &pieces_of[part as usize], tolerance).map(|found| fitted(view, &found))
+        }
         // Creases cut free forms, and number them beyond the parts.
         None => None,
     };
     part_of.iter().map(|&part| of_part(part)).collect()
-}
-
-/// The surface of a part that was taken for a free form, if one fits all of it: a chamfer is one strip of a cone,
-/// which proves nothing as long as one does not know where it ends.
-fn whole(view: View, pieces: &[u32], tolerance: f64) -> Option<Fitted> {
-    let vertices = view.vertices_of(pieces);
-    let few = vertices
-        .iter()
-        .step_by(vertices.len().div_ceil(MOST_POINTS));
-    let points: Vec<DVec3> = few.map(|&v| view.positions[v as usize]).collect();
-    let pick = |of: &[DVec3]| -> Vec<DVec3> { pieces.iter().map(|&p| of[p as usize]).collect() };
-    let of = Neighbourhood {
-        normals: &pick(&view.pieces.normals),
-        centroids: &pick(&view.pieces.centroids),
-        points: &points,
-    };
-    [Kind::Cylinder, Kind::Cone, Kind::Sphere, Kind::Torus]
-        .into_iter()
-        .filter(|kind| points.len() > kind.degrees_of_freedom())
-        .flat_map(|kind| guesses(kind, &of))
-        .filter_map(|guess| refine_patiently(guess, &points, tolerance))
-        .find_map(|fit| {
-            let surface = fit.surface;
-            let normal = view.pieces.normals[pieces[0] as usize];
-            let at = surface.gradient(view.pieces.centroids[pieces[0] as usize]);
-            let sign = at.dot(normal).signum();
-            let fits = |&p: &u32| view.fits(p, &surface, sign, tolerance);
-            pieces
-                .iter()
-                .all(fits)
-                .then(|| fitted(view, &view.weigh(surface, sign, pieces.to_vec(), tolerance)))
-        })
 }
 
 fn plane(view: View, piece: u32) -> Fitted {

@@ -35,9 +35,9 @@ fn rotate<const N: usize>(m: &mut [[f64; N]; N], vectors: &mut [[f64; N]; N], p:
         return;
     }
     let theta = (m[q][q] - m[p][p]) / (2.0 * m[p][q]);
-    let t = theta.signum() / (theta.abs() + theta.hypot(1.0));
+    let t = theta.signum() / (theta.abs() + (theta * theta + 1.0).sqrt());
     let t = if theta == 0.0 { 1.0 } else { t };
-    let c = 1.0 / t.hypot(1.0);
+    let c = 1.0 / (t * t + 1.0).sqrt();
     let s = t * c;
     for k in 0..N {
         let (a, b) = (m[k][p], m[k][q]);

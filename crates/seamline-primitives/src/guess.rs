@@ -15,6 +15,36 @@ pub(crate) struct Neighbourhood<'a> {
     pub points: &'a [DVec3],
 }
 
+/// Facets of a neighbourhood: normals and centroids.
+pub(crate) struct Facets {
+    pub normals: Vec<DVec3>,
+    pub centroids: Vec<DVec3>,
+}
+
+impl Facets {
+    /// The facets with the vertices between them.
+    pub fn between<'a>(&'a self, points: &'a [DVec3]) -> Neighbourhood<'a> {
+        Neighbourhood {
+            normals: &self.normals,
+            centroids: &self.centroids,
+            points,
+        }
+    }
+
+    /// Each two that follow each other as one: triangles to and fro between two rims lean one way and the other,
+    /// two together neither way.
+    pub fn paired(&self) -> Self {
+        let pairs = |of: &[DVec3]| -> Vec<DVec3> {
+            of.windows(2).map(|two| (two[0] + two[1]) / 2.0).collect()
+        };
+        let normals = pairs(&self.normals).into_iter();
+        Self {
+            normals: normals.map(DVec3::normalize_or_zero).collect(),
+            centroids: pairs(&self.centroids),
+        }
+    }
+}
+
 /// Radii above this many times the extent of the neighbourhood bend too little to be told from a plane.
 const MOST_RADIUS: f64 = 30.0;
 

@@ -2,8 +2,8 @@
 
 use glam::DVec3;
 
-use crate::guess::{Neighbourhood, guesses};
-use crate::pieces::Pieces;
+use crate::guess::{Facets, guesses};
+use crate::pieces::{Pieces, Triangles};
 use crate::refine::refine_patiently;
 use crate::surface::{Kind, Surface};
 
@@ -14,8 +14,12 @@ pub(crate) struct Hypothesis {
     /// Does the distance grow towards the outside (1) or the inside (-1) of the part?
     pub sign: f64,
     pub pieces: Vec<u32>,
+    /// Greatest distance at which a vertex was taken to lie on it.
+    pub tolerance: f64,
     /// Distinct vertices less degrees of freedom.
     pub evidence: i64,
+    /// Root mean square distance of its vertices.
+    pub rms: f64,
     /// Do its vertices lie on it as exactly as they are stored? A free form comes near many surfaces, and
     /// grows until the tolerance ends it; hardly one leaves its vertices at the precision of their numbers.
     pub exact: bool,
@@ -29,11 +33,12 @@ pub(crate) struct View<'a> {
     /// Root mean square distance up to which vertices lie on a surface exactly.
     pub precision: f64,
     pub positions: &'a [DVec3],
+    pub triangles: &'a Triangles,
     pub pieces: &'a Pieces,
 }
 
 impl View<'_> {
-    /// Do all vertices of a piece lie on the surface, and does its normal agree at the centroid?
+    /// Do all vertices of a piece lie on the surface, and does its normal agree at its faces' centroids?
     pub fn fits(&self, piece: u32, surface: &Surface, sign: f64, tolerance: f64) -> bool {
         self.fits_turned(piece, surface, sign, tolerance, NORMALS_AGREE)
     }
@@ -47,14 +52,30 @@ impl View<'_> {
         least_cos: f64,
     ) -> bool {
         let normal = self.pieces.normals[piece as usize];
-        let gradient = surface.gradient(self.pieces.centroids[piece as usize]);
-        (normal == DVec3::ZERO || sign * gradient.dot(normal) >= least_cos)
+        let agrees = |x: DVec3| sign * surface.gradient(x).dot(normal) >= least_cos;
+        let faces = self.pieces.faces.row(piece);
+        let agree = if faces.len() <= 2 {
+            agrees(self.pieces.centroids[piece as usize])
+        } else {
+            // The centroid of a piece bent like a ring lies far from it.
+            let mut centroids = faces.iter().map(|&f| self.triangles.centroids[f as usize]);
+            centroids.all(agrees)
+        };
+        (normal == DVec3::ZERO || agree)
             && self
                 .pieces
                 .vertices
                 .row(piece)
                 .iter()
                 .all(|&v| surface.distance(self.positions[v as usize]).abs() <= tolerance)
+    }
+
+    /// Greatest distance of pieces' faces, at their centroids, from the surface their vertices lie on.
+    pub fn sagitta(&self, surface: &Surface, pieces: &[u32]) -> f64 {
+        let faces = pieces.iter().flat_map(|&p| self.pieces.faces.row(p));
+        faces
+            .map(|&f| surface.distance(self.triangles.centroids[f as usize]).abs())
+            .fold(0.0, f64::max)
     }
 
     /// Do the vertices of a piece lie in the plane of its centroid and normal?
@@ -67,13 +88,47 @@ impl View<'_> {
             .all(|away| away <= tolerance)
     }
 
-    /// Distinct vertices of pieces.
+    /// Distinct vertices of pieces, in order.
     pub fn vertices_of(&self, pieces: &[u32]) -> Vec<u32> {
         let rows = pieces.iter().map(|&p| self.pieces.vertices.row(p));
-        let mut vertices: Vec<u32> = rows.flatten().copied().collect();
-        vertices.sort_unstable();
-        vertices.dedup();
+        let all = rows.flatten().copied();
+        if pieces.len() * SCARCE < self.positions.len() {
+            let mut vertices: Vec<u32> = all.collect();
+            vertices.sort_unstable();
+            vertices.dedup();
+            return vertices;
+        }
+        let mut among = vec![false; self.positions.len()];
+        for vertex in all {
+            among[vertex as usize] = true;
+        }
+        let numbered = among.into_iter().zip(0..);
+        numbered.filter_map(|(is, v)| is.then_some(v)).collect()
+    }
+
+    /// Positions of distinct vertices of pieces, `most` at most, from all over them.
+    pub fn some_points(&self, pieces: &[u32], most: usize) -> Vec<DVec3> {
+        let few: Vec<u32> = pieces
+            .iter()
+            .copied()
+            .step_by(pieces.len().div_ceil(most))
+            .collect();
+        let vertices = self.vertices_of(&few);
         vertices
+            .iter()
+            .step_by(vertices.len().div_ceil(most))
+            .map(|&v| self.positions[v as usize])
+            .collect()
+    }
+
+    /// Normals and centroids of pieces.
+    pub fn facets(&self, pieces: &[u32]) -> Facets {
+        let pick =
+            |of: &[DVec3]| -> Vec<DVec3> { pieces.iter().map(|&p| of[p as usize]).collect() };
+        Facets {
+            normals: pick(&self.pieces.normals),
+            centroids: pick(&self.pieces.centroids),
+        }
     }
 
     pub fn area(&self, pieces: &[u32]) -> f64 {
@@ -96,44 +151,53 @@ impl View<'_> {
             .collect();
         let squares: f64 = points.iter().map(|&x| surface.distance(x).powi(2)).sum();
         let apart = 4.0 * tolerance;
-        let strong = is_strong(&surface, &points, apart)
+        let few: Vec<DVec3> = points
+            .iter()
+            .copied()
+            .step_by(points.len().div_ceil(MOST_LEVELLED))
+            .collect();
+        let strong = is_strong(&surface, &few, apart)
             && match surface.kind {
                 Kind::Plane | Kind::Cylinder | Kind::Cone => true,
                 Kind::Sphere | Kind::Torus => !self.lie_on_a_cone(&pieces, &points, tolerance),
             };
         let rms = (squares / points.len() as f64).sqrt();
         Hypothesis {
+            rms,
             exact: rms <= self.precision,
             strong,
             surface,
             sign,
             pieces,
+            tolerance,
             evidence,
         }
     }
 
     /// Do the vertices of a sphere's or a torus' pieces lie on a cone as well? Those of one strip of revolution do.
     fn lie_on_a_cone(&self, pieces: &[u32], points: &[DVec3], tolerance: f64) -> bool {
-        let pick = |of: &[DVec3]| -> Vec<DVec3> {
-            let few = pieces.iter().step_by(pieces.len().div_ceil(100));
-            few.map(|&p| of[p as usize]).collect()
-        };
+        let some: Vec<u32> = pieces
+            .iter()
+            .copied()
+            .step_by(pieces.len().div_ceil(100))
+            .collect();
+        let facets = self.facets(&some);
         let few: Vec<DVec3> = points
             .iter()
             .copied()
             .step_by(points.len().div_ceil(100))
             .collect();
-        let of = Neighbourhood {
-            normals: &pick(&self.pieces.normals),
-            centroids: &pick(&self.pieces.centroids),
-            points: &few,
-        };
-        guesses(Kind::Cone, &of)
+        guesses(Kind::Cone, &facets.between(&few))
             .into_iter()
             .filter_map(|guess| refine_patiently(guess, &few, tolerance))
             .any(|fit| fit.rms <= tolerance)
     }
 }
+
+/// Vertices for each piece above which sorting a few is less work than going over all.
+const SCARCE: usize = 64;
+/// Most points that levels are counted of.
+const MOST_LEVELLED: usize = 2000;
 
 /// Least cosine between a piece's normal and the surface's at its centroid.
 const NORMALS_AGREE: f64 = 0.85;

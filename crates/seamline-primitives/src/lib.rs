@@ -24,6 +24,7 @@
 #![allow(clippy::needless_range_loop)]
 
 mod absorb;
+mod around;
 mod certain;
 mod crease_angles;
 mod creases;
@@ -37,10 +38,12 @@ mod pieces;
 mod refine;
 mod regions;
 mod rows;
+mod scout;
 mod search;
 mod select;
 mod surface;
 mod trust;
+mod whole;
 
 use glam::DVec3;
 use seamline_mesh::{Sets, Topology};
@@ -50,7 +53,7 @@ pub use surface::{Kind, Surface};
 use hypothesis::{Hypothesis, View};
 use pieces::{NONE, Pieces, Triangles};
 use regions::Regions;
-use search::Search;
+use search::search;
 use select::{borders_speak_for, free_part, select};
 
 /// Distances, in diagonals of the bounding box, at which vertices still lie on a surface: that of an export
@@ -111,26 +114,41 @@ pub struct Found {
 /// precision is coarser far from the origin.
 pub fn find(positions: &[DVec3], topology: &Topology, farthest: f64) -> Found {
     let (centre, diagonal) = frame(positions, topology);
-    let precision = PRECISION.max(ROUNDING * farthest / diagonal);
+    let precision = PRECISION.hypot(ROUNDING * farthest / diagonal);
     let ladder = LADDER.map(|tolerance| tolerance.max(6.0 * precision));
     let scaled: Vec<DVec3> = positions.iter().map(|&x| (x - centre) / diagonal).collect();
     let triangles = Triangles::of(&scaled, &topology.triangles);
-    let (pieces, mut regions) = climb(&scaled, topology, &triangles, ladder, precision);
-    let view = View {
+    let ground = Ground {
         precision,
         positions: &scaled,
-        pieces: &pieces,
+        triangles: &triangles,
+        topology,
     };
-    let exact_share = exact_share(view, &regions);
+    let (pieces, mut regions) = climb(ground, ladder);
+    let exact_share = exact_share(ground.seen(&pieces), &regions);
     if exact_share < HARDLY_ANYTHING {
         return nothing_exact(topology);
     }
-    let trusted = trust::trusted(view, topology, &regions);
+    let trusted = trust::trusted(ground.seen(&pieces), topology, &regions);
     let doubtful: Vec<u32> = regions.alive().filter(|&r| !trusted[r as usize]).collect();
     for region in doubtful {
         regions.dissolve(region);
     }
+    // What is free now may lie on a neighbour, and triangles of two neighbours in one plane by chance.
+    let mut all = 0..pieces.count() as u32;
+    let pieces = if all.any(|p| regions.owner[p as usize] == NONE && pieces.faces.row(p).len() > 1)
+    {
+        recut(ground, precision, PLANE_VERTICES[0], pieces, &mut regions)
+    } else {
+        pieces
+    };
+    let view = ground.seen(&pieces);
+    absorb::absorb(view, &mut regions, ladder[0]);
     let mut parts = parts::parts(view, topology, &regions, ladder[0]);
+    if whole::accept_wholes(view, &mut regions, &parts, ladder[0]) {
+        absorb::absorb(view, &mut regions, ladder[0]);
+        parts = parts::parts(view, topology, &regions, ladder[0]);
+    }
     parts::join_islands(view, &regions, &mut parts);
     let mut of_face: Vec<u32> = pieces
         .of_face
@@ -204,42 +222,79 @@ fn frame(positions: &[DVec3], topology: &Topology) -> (DVec3, f64) {
     }
 }
 
+/// What a search stands on.
+#[derive(Clone, Copy)]
+struct Ground<'a> {
+    precision: f64,
+    positions: &'a [DVec3],
+    triangles: &'a Triangles,
+    topology: &'a Topology,
+}
+
+impl<'a> Ground<'a> {
+    fn seen(self, pieces: &'a Pieces) -> View<'a> {
+        View {
+            precision: self.precision,
+            positions: self.positions,
+            triangles: self.triangles,
+            pieces,
+        }
+    }
+}
+
 /// Regions of surfaces, rung by rung of the ladder of tolerances. What one rung settles the next leaves alone;
 /// what is left is cut into flatter or less flat pieces anew.
-fn climb(
-    positions: &[DVec3],
-    topology: &Topology,
-    triangles: &Triangles,
-    ladder: [f64; 3],
-    precision: f64,
-) -> (Pieces, Regions) {
+fn climb(ground: Ground, ladder: [f64; 3]) -> (Pieces, Regions) {
     let mut pieces = Pieces::default();
     let mut regions = Regions::default();
-    let mut settled = vec![NONE; triangles.areas.len()];
     for (rung, &tolerance) in ladder.iter().enumerate() {
+        if rung > 0 && is_done(&pieces, &regions) {
+            break;
+        }
         let flat = FLATNESS * tolerance;
         let fewest = PLANE_VERTICES[rung];
-        let next = Pieces::find(positions, topology, triangles, flat, &settled, fewest);
-        regions = regions.moved(&pieces, &next);
-        pieces = next;
-        let view = View {
-            precision,
-            positions,
-            pieces: &pieces,
-        };
+        pieces = recut(ground, flat, fewest, pieces, &mut regions);
+        let view = ground.seen(&pieces);
         accept_planes(view, &mut regions, tolerance);
-        step(view, topology, &mut regions, rung, tolerance);
+        step(view, ground.topology, &mut regions, rung, tolerance);
         absorb::absorb(view, &mut regions, tolerance);
         if exact_share(view, &regions) < HARDLY_ANYTHING {
             break;
         }
-        let owned = |&piece: &u32| {
-            let taken = regions.owner[piece as usize] != NONE;
-            if taken { piece } else { NONE }
-        };
-        settled = pieces.of_face.iter().map(owned).collect();
     }
     (pieces, regions)
+}
+
+/// Cuts what no region owns into pieces anew.
+fn recut(
+    ground: Ground,
+    flat: f64,
+    fewest: usize,
+    pieces: Pieces,
+    regions: &mut Regions,
+) -> Pieces {
+    let owned = |&piece: &u32| {
+        let taken = regions.owner[piece as usize] != NONE;
+        if taken { piece } else { NONE }
+    };
+    let mut settled: Vec<u32> = pieces.of_face.iter().map(owned).collect();
+    let Ground {
+        positions,
+        triangles,
+        topology,
+        ..
+    } = ground;
+    settled.resize(topology.triangles.len(), NONE);
+    let next = Pieces::find(positions, topology, triangles, flat, &settled, fewest);
+    regions.move_to(&pieces, &next);
+    next
+}
+
+/// Is nothing left that a surface could be looked for in: no two pieces beside each other that nobody owns?
+fn is_done(pieces: &Pieces, regions: &Regions) -> bool {
+    let free = |p: u32| regions.owner[p as usize] == NONE && !pieces.certain[p as usize];
+    let mut smooth = pieces.links.iter().filter(|link| !link.wall);
+    !smooth.any(|link| link.pieces.into_iter().all(free))
 }
 
 /// Accepts the pieces that are planes whatever lies beside them.
@@ -273,7 +328,7 @@ fn step(view: View, topology: &Topology, regions: &mut Regions, rung: usize, tol
     let open: Vec<bool> = (0..view.pieces.count())
         .map(|p| regions.owner[p] == NONE)
         .collect();
-    let found = Search::new(view, &open, tolerance).run();
+    let found = search(view, &open, rung, tolerance);
     let least = |kind: Kind| match (rung, kind) {
         (0, _) => 1,
         (1, Kind::Cylinder) => 8,

@@ -30,6 +30,17 @@ pub(crate) struct Parts {
     pub forms: Vec<Form>,
 }
 
+impl Parts {
+    /// The pieces of each part.
+    pub fn pieces(&self) -> Vec<Vec<u32>> {
+        let mut of_part = vec![Vec::new(); self.forms.len()];
+        for (piece, &part) in self.of_piece.iter().enumerate() {
+            of_part[part as usize].push(piece as u32);
+        }
+        of_part
+    }
+}
+
 /// How many times larger than each smooth neighbour a flat piece is a plane of its own.
 const MUCH_LARGER: f64 = 4.0;
 /// Share of its smooth border along which a flat piece that is a plane of its own touches accepted surfaces.
@@ -84,11 +95,12 @@ fn is_plane(
         return true;
     }
     let vertices = pieces.vertices.row(piece);
-    if vertices.len() >= 5
-        && view.is_flat(piece, tolerance)
-        && is_certain_plane(view.positions, vertices, tolerance)
-    {
-        return true;
+    if !view.is_flat(piece, tolerance) {
+        return false;
+    }
+    if vertices.len() >= 5 {
+        // What has all its vertices on two lines is a strip between two rulings.
+        return is_certain_plane(view.positions, vertices, tolerance);
     }
     let [mut largest, mut tangent, mut smooth] = [0.0f64; 3];
     for &link in pieces.around.row(piece) {

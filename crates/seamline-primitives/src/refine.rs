@@ -36,32 +36,36 @@ fn descend(guess: Surface, points: &[DVec3], tolerance: f64, falls_to: f64) -> O
     if !finite(&surface) {
         return None;
     }
-    let mut squares = sum_of_squares(&surface, &local);
+    let mut at = Equations::at(&surface, &local);
     let count = local.len() as f64;
     let rms = |squares: f64| (squares / count).sqrt();
     let mut lambda = 1e-3;
     let mut before = [f64::INFINITY; 2];
     for _ in 0..MOST_STEPS {
-        if rms(squares) < goal {
+        if rms(at.squares) < goal {
             break;
         }
-        let hopeless = rms(squares) > near && rms(squares) > falls_to * before[0];
-        if hopeless || rms(squares) > 0.99 * before[1] {
+        let now = rms(at.squares);
+        let hopeless = now > near && now > falls_to * before[0];
+        if hopeless || now > 0.99 * before[1] {
             break;
         }
-        before = [before[1], rms(squares)];
-        let (matrix, right) = normal_equations(&surface, &local);
+        before = [before[1], now];
         let mut improved = false;
         for _ in 0..4 {
-            let Some(step) = solve(damped(&surface, matrix, lambda), right) else {
+            let Some(step) = solve(damped(&surface, at.matrix, lambda), at.right) else {
                 lambda *= 8.0;
                 continue;
             };
+            let falls_by: f64 = step.iter().zip(at.right).map(|(s, r)| s * r).sum();
+            if now > near && at.squares - falls_by > falls_to * falls_to * at.squares {
+                break;
+            }
             let next = stepped(&surface, step);
-            let next_squares = sum_of_squares(&next, &local);
-            if next_squares < squares && finite(&next) {
+            let there = Equations::at(&next, &local);
+            if there.squares < at.squares && finite(&next) {
                 surface = next;
-                squares = next_squares;
+                at = there;
                 lambda /= 10.0;
                 improved = true;
                 break;
@@ -75,7 +79,7 @@ fn descend(guess: Surface, points: &[DVec3], tolerance: f64, falls_to: f64) -> O
     let surface = moved(surface, -centre / radius, 1.0 / radius);
     Some(Fit {
         surface,
-        rms: rms(squares) * radius,
+        rms: rms(at.squares) * radius,
     })
 }
 
@@ -112,26 +116,37 @@ fn finite(surface: &Surface) -> bool {
     sane && surface.a.is_finite() && surface.b.is_finite()
 }
 
-fn sum_of_squares(surface: &Surface, points: &[DVec3]) -> f64 {
-    points.iter().map(|&x| surface.distance(x).powi(2)).sum()
-}
-
 type Matrix = [[f64; 8]; 8];
 
-/// `J^T J` (lower half) and `-J^T f`.
-fn normal_equations(surface: &Surface, points: &[DVec3]) -> (Matrix, [f64; 8]) {
-    let mut matrix = [[0.0; 8]; 8];
-    let mut right = [0.0; 8];
-    for &x in points {
-        let (f, row) = surface.derivatives(x);
-        for i in 0..8 {
-            right[i] -= row[i] * f;
-            for j in 0..=i {
-                matrix[i][j] += row[i] * row[j];
+/// What a step starts from.
+struct Equations {
+    /// Sum of the squared distances `f`.
+    squares: f64,
+    /// `J^T J`, its lower half.
+    matrix: Matrix,
+    /// `-J^T f`.
+    right: [f64; 8],
+}
+
+impl Equations {
+    fn at(surface: &Surface, points: &[DVec3]) -> Self {
+        let mut of = Self {
+            squares: 0.0,
+            matrix: [[0.0; 8]; 8],
+            right: [0.0; 8],
+        };
+        for &x in points {
+            let (f, row) = surface.derivatives(x);
+            of.squares += f * f;
+            for i in 0..8 {
+                of.right[i] -= row[i] * f;
+                for j in 0..=i {
+                    of.matrix[i][j] += row[i] * row[j];
+                }
             }
         }
+        of
     }
-    (matrix, right)
 }
 
 /// Damped, and held where the surface does not depend on the step: along the axis' own direction, and for

@@ -68,8 +68,8 @@ impl Regions {
         }
     }
 
-    /// The same regions on other pieces, of which each lies in one of the old ones.
-    pub fn moved(mut self, old: &Pieces, new: &Pieces) -> Self {
+    /// Moves regions to other pieces, of which each lies in one of the old ones.
+    pub fn move_to(&mut self, old: &Pieces, new: &Pieces) {
         self.owner = vec![NONE; new.count()];
         for (number, region) in self.all.iter_mut().enumerate() {
             let faces = region.pieces.iter().flat_map(|&p| old.faces.row(p));
@@ -81,7 +81,6 @@ impl Regions {
             }
             region.pieces = pieces;
         }
-        self
     }
 
     /// Numbers of the regions that have pieces.

@@ -102,7 +102,8 @@ impl Surface {
             Kind::Cylinder => self.about_axis(x).distance - self.a,
             Kind::Cone => {
                 let at = self.about_axis(x);
-                (at.distance - self.a) * self.b.cos() - at.height * self.b.sin()
+                let (sin, cos) = self.b.sin_cos();
+                (at.distance - self.a) * cos - at.height * sin
             }
             Kind::Torus => {
                 let at = self.about_axis(x);
@@ -127,6 +128,7 @@ impl Surface {
     }
 
     /// Distance of `x`, and its derivatives by point (3), axis (3), `a` and `b`.
+    #[inline]
     pub(crate) fn derivatives(&self, x: DVec3) -> (f64, [f64; 8]) {
         let row = |point: DVec3, axis: DVec3, a: f64, b: f64| {
             [point.x, point.y, point.z, axis.x, axis.y, axis.z, a, b]

@@ -3,11 +3,11 @@
 use bevy_ecs::prelude::*;
 use seamline_ecs::components::*;
 use seamline_ecs::rows::{self, Regions};
-use seamline_ecs::{Column, Counts, MeshTopology, Stage, StageSystems};
+use seamline_ecs::{Column, Counts, MeshTopology, Settled, Stage, StageSystems};
 use seamline_mesh::{Sets, Topology};
 
 use crate::rounding::to_eight_digits;
-use crate::surfaces::{Settled, regions_of};
+use crate::surfaces::regions_of;
 
 pub(crate) fn vertex_systems() -> StageSystems {
     grow_from_vertices.pipe(make_rows).in_set(Stage::Grow)

@@ -50,13 +50,13 @@ pub use grow::{Grown, grow_facets, grow_pure_triangles};
 pub use hard_edges::{HardEdgeSettings, hard_edges};
 pub use import::{Laid, MeshSettings, ScaleBy, lay_out};
 pub use merge::{MergeSettings, RegionDistance};
-pub use reduction::reduce;
+pub use reduction::{Reduced, reduce};
 pub use refine::{RefineSettings, RefinedRows, refine};
 pub use region_graph::{Link, Merged, RegionGraph};
 pub use score::{ScoreSettings, angle_score, curvature_score, facet_scores, vertex_scores};
 pub use sharp::{SharpSettings, dihedral_angles, sharp_edges, sharp_vertices};
 pub use spatial_order::SpatialOrder;
-pub use surfaces::{Settled, SurfaceSettings, patch_surfaces};
+pub use surfaces::{SurfaceSettings, patch_surfaces};
 pub use tensor::{Bending, TensorForm, TensorPair, edge_tensor, face_tensors, vertex_tensors};
 pub use threshold::{Threshold, widest_gap};
 
@@ -74,6 +74,7 @@ pub fn builtin_steps() -> BuiltinSteps {
             SettingsTable::of::<ScoreSettings>(),
             SettingsTable::of::<RefineSettings>(),
         ],
+        with_chosen_classifier: &[(SurfaceSettings::TABLE, "enabled", false)],
         install,
         idle: |kind| match kind {
             PipelineKind::Segment => &[HardEdgeSettings::TABLE, RefineSettings::TABLE],
@@ -105,7 +106,6 @@ fn install(in_force: &Table) -> Result<InstallStep, SettingsError> {
                 ..surfaces.clone()
             });
             world.insert_resource(RefinedRows::default());
-            world.insert_resource(Settled::default());
             world.insert_resource(curvature.clone());
             world.insert_resource(facets.clone());
             world.insert_resource(merge.clone());

@@ -6,14 +6,15 @@ use schemars::JsonSchema;
 use seamline_ecs::components::*;
 use seamline_ecs::rows::{self, Regions};
 use seamline_ecs::settings::{OutOfRange, Profile, StepSettings};
-use seamline_ecs::{Column, ColumnMut, Counts, MeshTopology, Stage, StageSystems};
+use seamline_ecs::{
+    Column, ColumnMut, Counts, Measures, MeshTopology, Settled, Stage, StageSystems,
+};
 use serde::{Deserialize, Serialize};
 
 use crate::facets::FacetSettings;
 use crate::reduction::reduce;
 use crate::region_graph::{Link, RegionGraph};
 use crate::rounding::to_eight_digits;
-use crate::surfaces::Settled;
 use crate::threshold::Threshold;
 
 /// How different two neighbouring regions are, `DC` in `D = DC N S`.
@@ -109,7 +110,12 @@ fn merge_regions(
     curvatures: Column<VertexCurvature>,
     regions: Column<Region>,
     mut labels: ColumnMut<FaceLabel>,
+    mut measures: ResMut<Measures>,
 ) -> Vec<Region> {
+    // What surfaces have settled is not merged.
+    if settled.0.is_some() {
+        return regions.to_vec();
+    }
     let border = (settings.distance == RegionDistance::Boundary).then_some(&curvatures[..]);
     let graph = RegionGraph::build(
         &topology.0,
@@ -120,16 +126,14 @@ fn merge_regions(
         regions.to_vec(),
         border,
     );
-    let mut settings = settings.clone();
-    if settled.0.is_some() {
-        settings.threshold = Threshold::Fixed(f64::NEG_INFINITY);
-        settings.regions = 0;
-    }
-    let (number, regions) = reduce(graph, &settings, facets.barely_curved, border);
+    let reduced = reduce(graph, &settings, facets.barely_curved, border);
     for label in labels.iter_mut() {
-        label.0 = number[label.0 as usize];
+        label.0 = reduced.number[label.0 as usize];
     }
-    regions
+    if let Some(threshold) = reduced.threshold {
+        measures.note(Stage::Merge, "threshold", threshold);
+    }
+    reduced.regions
 }
 
 fn make_rows(In(regions): In<Vec<Region>>, world: &mut World) {

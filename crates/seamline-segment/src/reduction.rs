@@ -50,7 +50,17 @@ impl PartialOrd for Candidate {
 /// one that has shrunk by less than about this is noticed late.
 const MEASURE_AGAIN_AFTER: f64 = 0.01;
 
-/// Reduces the graph. Gives the new number of each region, counted by lowest old one, and what is left.
+/// A reduced graph.
+pub struct Reduced {
+    /// The new number of each region, counted by lowest old one.
+    pub number: Vec<u32>,
+    /// What is left.
+    pub regions: Vec<Region>,
+    /// The distance above which nothing was merged; `None` where a number of regions was wanted.
+    pub threshold: Option<f64>,
+}
+
+/// Reduces the graph.
 ///
 /// Cost: n log n in the number of links, as long as regions do not change by much with each merge.
 pub fn reduce(
@@ -58,20 +68,22 @@ pub fn reduce(
     settings: &MergeSettings,
     barely_curved: f64,
     border: Option<&[VertexCurvature]>,
-) -> (Vec<u32>, Vec<Region>) {
+) -> Reduced {
     let wanted = settings.regions as usize;
-    let threshold = match settings.threshold {
+    let threshold = (wanted == 0).then(|| match settings.threshold {
         Threshold::Fixed(threshold) => threshold,
-        Threshold::Auto if wanted > 0 => f64::INFINITY,
         Threshold::Auto => {
             let to_the_end = Reduction::of(graph.clone(), settings, barely_curved, border);
             widest_gap(&to_the_end.merged_at(), settings.distance)
         }
-    };
+    });
     let mut reduction = Reduction::of(graph, settings, barely_curved, border);
     while reduction.left > wanted {
         let tied = reduction.shortest();
-        if tied.is_empty() || (wanted == 0 && tied[0].distance > threshold) {
+        let Some(shortest) = tied.first() else {
+            break;
+        };
+        if threshold.is_some_and(|threshold| shortest.distance > threshold) {
             break;
         }
         for candidate in tied {
@@ -80,7 +92,12 @@ pub fn reduce(
             }
         }
     }
-    reduction.finish()
+    let (number, regions) = reduction.finish();
+    Reduced {
+        number,
+        regions,
+        threshold,
+    }
 }
 
 struct Reduction<'a> {

@@ -9,7 +9,7 @@ use seamline_ecs::results::{PatchSurface, SurfaceShape};
 use seamline_ecs::rows::{self, Surfaces};
 use seamline_ecs::settings::{OutOfRange, Profile, StepSettings};
 use seamline_ecs::{
-    Column, ColumnMut, Counts, InputMesh, MeshScale, MeshTopology, Stage, StageSystems,
+    Column, ColumnMut, Counts, InputMesh, MeshScale, MeshTopology, Settled, Stage, StageSystems,
 };
 use seamline_primitives::{Fitted, Found, Kind, find};
 use serde::{Deserialize, Serialize};
@@ -20,8 +20,8 @@ use crate::grow::{Grown, mean_curvatures};
 #[derive(Resource, Clone, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SurfaceSettings {
-    /// Are surfaces looked for? Curvature must lie on facets. Off by default, though patches are far better with
-    /// it: on some symmetric coarse parts the result depends on how the part lies, and memory is not yet estimated.
+    /// Are surfaces looked for? Curvature must lie on facets. Where surfaces explain a mesh no classifier is
+    /// asked: so not by default where a classifier other than the default one is chosen.
     pub enabled: bool,
     /// Share of the area that must lie exactly on surfaces for the patches to follow from them; below it
     /// (noise, scans, natural shapes) curvature leads. The least of any CAD export measured is .06, a
@@ -32,9 +32,9 @@ pub struct SurfaceSettings {
 impl StepSettings for SurfaceSettings {
     const TABLE: &'static str = "surfaces";
 
-    fn defaults(_: Profile) -> Self {
+    fn defaults(profile: Profile) -> Self {
         Self {
-            enabled: false,
+            enabled: profile == Profile::Cad,
             least_exact_share: 0.05,
         }
     }
@@ -47,10 +47,6 @@ impl StepSettings for SurfaceSettings {
         )
     }
 }
-
-/// The patch of each face where surfaces explain the mesh; else `None`.
-#[derive(Resource, Clone, Debug, Default)]
-pub struct Settled(pub Option<Vec<u32>>);
 
 pub(crate) fn systems() -> StageSystems {
     look.pipe(make_rows).in_set(Stage::Surfaces)

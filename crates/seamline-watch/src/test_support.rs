@@ -25,6 +25,7 @@ pub const HANGS: usize = 12;
 pub fn pipeline() -> Arc<Pipeline> {
     let steps = BuiltinSteps {
         tables: Vec::new(),
+        with_chosen_classifier: &[],
         install: |_| {
             Ok(Arc::new(|_: &mut World, schedule: &mut Schedule| {
                 schedule.add_systems(fallible(obey).in_set(Stage::Grow));

@@ -111,11 +111,11 @@ pub struct PipelineArgs {
     #[arg(long, value_name = "NAME")]
     pub profile: Option<String>,
     /// Plugin that gives each curvature sample a cluster; see `seamline plugins`. A program of your own:
-    /// --set 'pipeline.classifier={ command = ["python3", "my_classifier.py"] }'
-    #[arg(long, value_name = "NAME")]
+    /// '{ command = ["python3", "my_classifier.py"] }'
+    #[arg(long, value_name = "NAME|COMMAND")]
     pub classifier: Option<String>,
-    /// Plugin that cleans the boundaries, or none
-    #[arg(long, value_name = "NAME")]
+    /// Plugin that cleans the boundaries, or none; or a program, as above
+    #[arg(long, value_name = "NAME|COMMAND")]
     pub rectifier: Option<String>,
     /// Configuration whose pipeline part is used
     #[arg(long, value_name = "F.toml")]
@@ -210,6 +210,9 @@ pub struct CheckPluginArgs {
     /// The longest a program may take over one mesh, in seconds
     #[arg(long, value_name = "SECONDS", default_value_t = 60.0)]
     pub timeout_s: f64,
+    /// The tables a program is sent, with commas; all of its stage where none is named
+    #[arg(long, value_name = "TABLES", value_delimiter = ',')]
+    pub send: Vec<String>,
     /// The name of a plugin, or a program with its arguments; one word without `/` is a name
     #[arg(
         required = true,

@@ -9,12 +9,13 @@ use seamline_segment::builtin_steps;
 
 use crate::args::CheckPluginArgs;
 use crate::outcome::{Outcome, WrongUse};
-use crate::say::{counted, print};
+use crate::say::{counted, print, tell_as_it_comes};
 
 /// Tests a plugin and tells what it breaks; one that breaks something counts as input that failed.
 pub fn run(args: &CheckPluginArgs) -> Result<Outcome> {
     let registry = seamline_plugins::registry();
     let (stage, choice) = choice(args, &registry)?;
+    tell_as_it_comes();
     // A panic is told as what it is: something the plugin breaks.
     panic::set_hook(Box::new(|_| {}));
     let trials = check(&builtin_steps(), &registry, stage, &choice)?;
@@ -56,6 +57,7 @@ fn choice(args: &CheckPluginArgs, registry: &Registry) -> Result<(SwappableStage
     }
     let command = CommandSettings {
         timeout_s: args.timeout_s,
+        send: args.send.clone(),
         ..CommandSettings::new(args.what.clone())
     };
     Ok((stage_named(&args.stage)?, PluginChoice::Command(command)))

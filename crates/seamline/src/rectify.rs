@@ -11,12 +11,16 @@ use seamline_watch::{load, load_markings, weld_share};
 use crate::args::RectifyArgs;
 use crate::outcome::{Outcome, WrongUse, say_failure};
 use crate::results::{Failure, Results};
+use crate::say::tell_as_it_comes;
 use crate::settings::pipeline_of_args;
 
 /// Rectifies what is given for one mesh.
 pub fn run(args: &RectifyArgs) -> Result<Outcome> {
     let pipeline = Arc::new(pipeline_of_args(&args.pipeline, &said(args)?)?);
     let results = Results::new(&args.results, args.said, Arc::clone(&pipeline))?;
+    if args.said.verbose {
+        tell_as_it_comes();
+    }
     let share = weld_share(pipeline.settings_in_force());
     let path = &args.mesh;
     let failed = |of: &Path, Failure { reason, hint }: Failure| {

@@ -186,16 +186,16 @@ fn say_stages(loaded: &LoadedMesh, segmentation: &Segmentation) {
         stage,
         seconds,
         counts,
+        measures,
     } in &segmentation.stages
     {
-        let counts: Vec<_> = counts
-            .iter()
-            .map(|(name, n)| format!("{name} {n}"))
-            .collect();
+        let counts = counts.iter().map(|(name, n)| format!("{name} {n}"));
+        let measures = measures.iter().map(|(name, x)| format!("{name} {x:.3}"));
+        let told: Vec<_> = counts.chain(measures).collect();
         say(&format_args!(
             "  {:<10} {seconds:>9.3} s  {}",
             stage.name(),
-            counts.join(", ")
+            told.join(", ")
         ));
     }
 }

@@ -13,6 +13,7 @@ use seamline_watch::{load, weld_share};
 use crate::args::SegmentArgs;
 use crate::outcome::{Outcome, WrongUse, say_failure};
 use crate::results::{Failure, Results};
+use crate::say::tell_as_it_comes;
 use crate::settings::pipeline_of_args;
 
 /// Cuts every mesh named; one that fails is told and the others go on.
@@ -23,6 +24,9 @@ pub fn run(args: &SegmentArgs) -> Result<Outcome> {
     let results = Results::new(&args.results, args.said, Arc::clone(&pipeline))?;
     let weld_share = weld_share(pipeline.settings_in_force());
 
+    if args.said.verbose {
+        tell_as_it_comes();
+    }
     let bar = progress(args.meshes.len(), args.said.quiet);
     let mut worker = Worker::new(pipeline);
     let mut failures = 0;

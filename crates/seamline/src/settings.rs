@@ -86,7 +86,7 @@ fn lay_args_over(given: &mut Table, args: &PipelineArgs) -> Result<()> {
     ];
     for (key, value) in named {
         if let Some(value) = value {
-            set_dotted(given, key, &toml::Value::String(value.clone()).to_string())?;
+            set_dotted(given, key, value)?;
         }
     }
     if let Some(threads) = args.threads {

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """A classifier for Seamline in Python: clusters of curvature by BIRCH, of scikit-learn.
 
-    seamline segment part.stl --set 'pipeline.classifier={ command = ["python3", "birch.py"], send = ["samples"] }'
+    seamline segment part.stl --classifier '{ command = ["python3", "birch.py"], send = ["samples"] }'
 
 Needs pyarrow, numpy and scikit-learn. It stays for mesh after mesh, until its input ends.
 """

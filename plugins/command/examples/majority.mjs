@@ -1,7 +1,7 @@
 // A rectifier for Seamline in JavaScript: a face that has more good boundary with one neighbouring patch behind
 // it than without goes over to that patch. It takes teeth off a boundary and leaves straight ones alone.
 //
-//     seamline segment part.stl --set 'pipeline.rectifier={ command = ["node", "majority.mjs"] }'
+//     seamline segment part.stl --rectifier '{ command = ["node", "majority.mjs"] }'
 //
 // Needs apache-arrow (npm install apache-arrow). It stays for mesh after mesh, until its input ends.
 

@@ -51,7 +51,9 @@ impl Fault {
             Self::NotStarted(_) => {
                 "name a program that is installed; `folder` says where it is started".to_owned()
             }
-            Self::Ended { .. } => "what it said on standard error is in the log".to_owned(),
+            Self::Ended { .. } => {
+                "all it said on standard error is in the log; `segment -v` shows it".to_owned()
+            }
             Self::Silent(_) => "it must flush its answer, and not wait for the end of its input; \
                                 or raise `timeout_s`"
                 .to_owned(),

@@ -24,17 +24,18 @@
 //!
 //! **What goes out.** One Arrow IPC stream on standard output with one column of whole numbers: `cluster` for
 //! each sample, below the number of samples, or `label` for each face, below the number of faces. Standard
-//! error goes to the log.
+//! error goes to the log of `watch`; `segment -v` and `plugins check` show it.
 //!
 //! **For how long.** A program that goes on reading after its answer gets the next mesh, of the same stage; its
 //! input ends when it is needed no longer. One that ends with status 0 after an answer is started again for
-//! the next mesh. Several may run at a time.
+//! the next mesh, and so is one that has said more after its answer. Several may run at a time.
 //!
 //! **What may go wrong** costs the job that was under way and the process, never more: a program that cannot be
 //! started, ends before it has answered, says nothing for `timeout_s`, or answers with what is no Arrow stream,
 //! has other columns, has gaps, or is of the wrong length.
 //!
-//! **What it costs.** See the README of `plugins/`, which has the measured overhead on a million vertices.
+//! **What it costs.** On a million vertices 0.39 s where `samples` alone is sent and 0.94 s with all tables, measured on a
+//! busy machine; a process is started once, not for each mesh. The README of `plugins/` has the command.
 
 mod answer;
 mod crew;

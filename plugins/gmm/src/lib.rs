@@ -26,14 +26,18 @@ pub use mixture::{Mixture, WeightedPoint};
 #[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct GmmSettings {
-    /// Components there are at most; the criterion mostly stops before.
+    /// Components there are at most; the criterion mostly stops before. Over the bench (`plugins/COMPARISON.md`) the mean of
+    /// ARI, boundary F1 and exact is .853 with 8, .860 with 16 and with 32.
     pub max_components: u32,
-    /// Curvature that counts as barely curved, over the part's size: what is compared is `ln(1 + c / this)`.
+    /// Curvature that counts as barely curved, over the part's size: what is compared is `ln(1 + c / this)`. Over
+    /// the bench .862 with 0.2, .860 with 0.4, .845 with 0.8.
     pub barely_curved: f64,
     /// No component is narrower than this in any direction, as a standard deviation of what is compared. Many
-    /// samples are exactly equal, and what is exactly equal would be a component of its own.
+    /// samples are exactly equal, and what is exactly equal would be a component of its own. Over the bench: .857 with 0.1,
+    /// .860 with 0.2, .827 with 0.4.
     pub least_spread: f64,
-    /// Rounds of expectation and maximisation for each number of components at most.
+    /// Rounds of expectation and maximisation for each number of components at most. Not critical: over the bench .863
+    /// with 10, .860 with 20, .859 with 40.
     pub max_rounds: u32,
 }
 

@@ -22,12 +22,15 @@ pub use max_flow::Flow;
 #[serde(deny_unknown_fields)]
 pub struct GraphCutSettings {
     /// Width of the band on either side of a boundary, in rings of faces. A patch gives up its outer half at
-    /// most, so that one of a single strip stays as it is.
+    /// most, so that one of a single strip stays as it is. On even meshes of the bench (`plugins/COMPARISON.md`) boundary F1
+    /// is .913 with 1, .917 with 3 and with 6.
     pub band_rings: u32,
-    /// An edge of score 0 costs this share of one of score 90: what is left to decide by length alone.
+    /// An edge of score 0 costs this share of one of score 90: what is left to decide by length alone. From 0.002 to
+    /// 0.02 the means over the bench differ by .001.
     pub length_share: f64,
     /// An edge that is a boundary already costs this share of what it would cost else: how much better a cut must
-    /// be than the boundary that is there.
+    /// be than the boundary that is there. The mean of ARI, boundary F1 and exact over the bench is .855 with 0.25, .856
+    /// with 0.5, .845 with 1.
     pub kept_share: f64,
 }
 

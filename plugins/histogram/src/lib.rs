@@ -19,13 +19,17 @@ pub use valleys::{smooth, valleys};
 #[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct HistogramSettings {
-    /// Curvature that counts as barely curved, over the part's size: what is counted is `ln(1 + c / this)`.
+    /// Curvature that counts as barely curved, over the part's size: what is counted is `ln(1 + c / this)`. Over the
+    /// bench .867 with 0.2, .865 with 0.4, .863 with 0.8.
     pub barely_curved: f64,
-    /// Width of a bin, in what is counted: at large curvature, a share of the radius.
+    /// Width of a bin, in what is counted: at large curvature, a share of the radius. The mean of ARI,
+    /// boundary F1 and exact over the bench (`plugins/COMPARISON.md`) is .865 with 0.01 and with 0.02, .860 with 0.04.
     pub bin: f64,
-    /// The histogram is smoothed by a Gaussian of this standard deviation, in what is counted.
+    /// The histogram is smoothed by a Gaussian of this standard deviation, in what is counted. Over the bench: .866 with
+    /// 0.01, .865 with 0.02, .854 with 0.04.
     pub smoothing: f64,
-    /// A dip is a valley if it is lower than this share of the lower of the two peaks beside it.
+    /// A dip is a valley if it is lower than this share of the lower of the two peaks beside it. Over the bench:
+    /// .856 with 0.25, .865 with 0.5, .861 with 0.75.
     pub valley_below_share: f64,
 }
 

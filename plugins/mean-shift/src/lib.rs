@@ -19,10 +19,12 @@ pub use density::Density;
 #[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct MeanShiftSettings {
-    /// Curvature that counts as barely curved, over the part's size: samples are compared by `ln(1 + c / this)`.
+    /// Curvature that counts as barely curved, over the part's size: samples are compared by `ln(1 + c / this)`. Over
+    /// the bench .864 with 0.2 and with 0.4, .862 with 0.8.
     pub barely_curved: f64,
     /// Standard deviation of the Gaussian each sample adds to the density, in what is compared. Two heaps
-    /// nearer than about twice this are one.
+    /// nearer than about twice this are one. The mean of ARI, boundary F1 and exact over the bench
+    /// (`plugins/COMPARISON.md`) is .861 with 0.06, .864 with 0.12, .859 with 0.24.
     pub bandwidth: f64,
 }
 

@@ -76,6 +76,7 @@ fn next_table(input: &mut Stdin) -> Answer<Option<RecordBatch>> {
 fn answer(manner: &str, tables: &[RecordBatch]) -> Answer<()> {
     let table = &tables[0];
     let rows = table.num_rows() as u32;
+    eprintln!("{rows} rows to look at");
     let whole = |values: Vec<u32>| Arc::new(UInt32Array::from(values)) as ArrayRef;
     let zeros = |count: u32| whole(vec![0; count as usize]);
     let (name, column) = match manner {

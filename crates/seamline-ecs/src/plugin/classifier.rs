@@ -8,7 +8,7 @@ use seamline_mesh::{Mesh, Topology};
 use super::{StepError, StepSettings, check_answers};
 use crate::column::{Column, ColumnMut};
 use crate::components::*;
-use crate::job::{Counts, InputMesh, MeshTopology};
+use crate::job::{Counts, InputMesh, MeshTopology, Settled};
 use crate::stage::{Stage, StageSystems, fallible};
 
 /// One way to sort samples of curvature into clusters. The value is the plugin's settings.
@@ -168,5 +168,5 @@ pub fn classifier_systems(
         }
         Ok(())
     };
-    fallible(system)
+    fallible(system).run_if(Settled::not_yet)
 }

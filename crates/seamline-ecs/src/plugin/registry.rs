@@ -113,7 +113,11 @@ impl Registry {
         of_stage().find(|entry| entry.name == name).ok_or_else(|| {
             let key = format!("pipeline.{}", stage.key());
             let nothing = (stage == SwappableStage::Rectify).then_some("none");
-            let known = of_stage().map(|entry| entry.name).chain(nothing);
+            let program = self
+                .outside
+                .map(|_| "{ command = [\"program\", \"argument\"] }");
+            let names = of_stage().map(|entry| entry.name);
+            let known = names.chain(nothing).chain(program);
             SettingsError::unknown(key, stage.key(), name, known)
         })
     }

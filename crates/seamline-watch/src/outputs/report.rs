@@ -134,7 +134,9 @@ fn marked(given: &LoadedMarkings) -> Marked<'_> {
 fn stages(segmentation: &Segmentation) -> Vec<Value> {
     let stages = segmentation.stages.iter();
     stages
-        .map(|record| json!({ "stage": record.stage, "counts": record.counts }))
+        .map(|record| {
+            json!({ "stage": record.stage, "counts": record.counts, "measures": record.measures })
+        })
         .collect()
 }
 

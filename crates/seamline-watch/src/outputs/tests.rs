@@ -33,6 +33,7 @@ impl Home {
             stage: Stage::Sharp,
             seconds,
             counts,
+            measures: [("threshold", 0.65)].into(),
         };
         Segmentation {
             stages: vec![record],
@@ -154,6 +155,7 @@ fn the_report_tells_input_settings_stages_and_patches() {
     assert_eq!(report["findings"]["triangles"], 2);
     assert_eq!(report["stages"][0]["stage"], "sharp");
     assert_eq!(report["stages"][0]["counts"]["sharp_edges"], 4);
+    assert_eq!(report["stages"][0]["measures"]["threshold"], 0.65);
     assert_eq!(report["patches"][0]["faces"], 2);
     assert_eq!(report["boundaries"][0]["sharp_share"], 0.5);
     assert_eq!(report["seconds"]["sharp"], 2.0);

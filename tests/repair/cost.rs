@@ -10,7 +10,14 @@ use seamline_tests::{bench, pipeline};
 const ROUNDS: usize = 7;
 
 /// What counts as segmenting: everything between the mesh in rows and the boundary scores.
-const SEGMENTING: [&str; 5] = ["sharp", "curvature", "classify", "grow", "merge"];
+const SEGMENTING: [&str; 6] = [
+    "sharp",
+    "surfaces",
+    "curvature",
+    "classify",
+    "grow",
+    "merge",
+];
 
 /// Prints a table; says so where the bench is absent.
 pub fn print() {

@@ -14,10 +14,12 @@ struct Shipped {
     drops: &'static [(&'static str, &'static str)],
     /// Where the parts are afterwards.
     sources: &'static [&'static str],
+    /// Do labels of another tool come with each part?
+    labelled: bool,
 }
 
 /// All of them. Paths are those of a project whose `watch-config/` holds the file.
-const SHIPPED: [Shipped; 3] = [
+const SHIPPED: [Shipped; 4] = [
     Shipped {
         name: "demo.toml",
         drops: &[(
@@ -25,6 +27,7 @@ const SHIPPED: [Shipped; 3] = [
             "watch-config/demo/out/deeper/part.stl.seamline",
         )],
         sources: &["tests/data/deeper/part.stl"],
+        labelled: false,
     },
     Shipped {
         name: "production.toml",
@@ -33,6 +36,19 @@ const SHIPPED: [Shipped; 3] = [
             "watch-config/out/deeper/part.stl.seamline",
         )],
         sources: &["watch-config/done/deeper/part.stl"],
+        labelled: false,
+    },
+    Shipped {
+        name: "pairs.toml",
+        drops: &[(
+            "watch-config/inbox/from-others/part.stl",
+            "watch-config/out/from-others/part.stl.seamline",
+        )],
+        sources: &[
+            "watch-config/done/from-others/part.stl",
+            "watch-config/done/from-others/part.seg",
+        ],
+        labelled: true,
     },
     Shipped {
         name: "network-share.toml",
@@ -50,6 +66,7 @@ const SHIPPED: [Shipped; 3] = [
             "watch-config/shares/acme/inbox/acme/part.stl",
             "watch-config/shares/bolt-and-sons/inbox/bolt-and-sons/part.stl",
         ],
+        labelled: false,
     },
 ];
 
@@ -111,6 +128,10 @@ fn project(of: &Shipped, config: &str) -> (tempfile::TempDir, PathBuf) {
     };
     for ((drop, _), part) in of.drops.iter().zip(parts()) {
         put(drop, &part.bytes);
+        if of.labelled {
+            let labels: String = part.patches.iter().map(|p| format!("{p}\n")).collect();
+            put(&drop.replace(".stl", ".seg"), labels.as_bytes());
+        }
     }
     let config = put(&format!("watch-config/{}", of.name), config.as_bytes());
     (home, config)

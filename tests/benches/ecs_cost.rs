@@ -8,7 +8,7 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use criterion::{Criterion, criterion_group, criterion_main};
-use seamline_contour_tracking::{ContourTrackingSettings, mark, patches, track};
+use seamline_contour_tracking::{ContourTrackingSettings, Ground, mark, patches, track};
 use seamline_ecs::components::*;
 use seamline_ecs::settings::{Profile, StepSettings};
 use seamline_ecs::{Segmentation, Stage, Worker};
@@ -114,6 +114,7 @@ impl Bare {
             curvatures: &curvatures,
             labels: &self.labels,
             length: self.length,
+            given: None,
         };
         describe(mesh, &rows, face_patches)
     }
@@ -178,8 +179,15 @@ impl Bare {
             scores,
         );
         mark(topology, scores, &self.sharp, labels, &settings, states);
-        track(topology, positions, scores, settings.turn_weight, states);
-        patches(topology, states, labels);
+        let ground = Ground {
+            topology,
+            positions,
+            scores,
+            turn_weight: settings.turn_weight,
+            max_gap: f64::INFINITY,
+        };
+        track(ground, states);
+        patches(topology, false, states, labels);
     }
 }
 

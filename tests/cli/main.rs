@@ -5,6 +5,7 @@ mod demo;
 mod home;
 mod inspect;
 mod outputs;
+mod rectify;
 mod robust;
 mod settings;
 mod several;

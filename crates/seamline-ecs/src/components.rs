@@ -103,6 +103,8 @@ pub enum ContourState {
     Kept,
     /// Added by the tracker to close a contour (paper 5.3.2).
     Tracked,
+    /// Given, but inside one patch: it ends where nothing closes it, and is kept for what it is.
+    Crease,
 }
 
 // Samples of curvature: facets, or vertices that are not sharp.

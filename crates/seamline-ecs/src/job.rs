@@ -4,13 +4,40 @@ use std::sync::Arc;
 
 use bevy_ecs::prelude::*;
 use glam::DVec3;
-use seamline_mesh::{Mesh, Topology};
+use seamline_mesh::{Markings, Mesh, Topology};
 
 use crate::stage::{Stage, StepError};
 
 /// The welded mesh as it was read, in the file's unit.
 #[derive(Resource, Clone)]
 pub struct InputMesh(pub Arc<Mesh>);
+
+/// What another tool has marked on the mesh, where its boundaries are to be rectified.
+#[derive(Resource, Clone)]
+pub struct InputMarkings(pub Arc<Markings>);
+
+/// The boundaries that were given to be rectified.
+#[derive(Resource, Clone, Debug, Default, PartialEq)]
+pub struct GivenBoundary {
+    /// The edges they run along, rising.
+    pub edges: Vec<u32>,
+    /// What they were given as.
+    pub origin: GivenAs,
+}
+
+/// What boundaries were given as.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum GivenAs {
+    /// Nothing: the patches are those of the segmentation.
+    #[default]
+    Nothing,
+    /// Labels of faces: boundaries are closed.
+    Labels,
+    /// Edges that somebody names: they may have gaps, and some may be wrong.
+    Edges,
+    /// Edges that turn by more than an angle: they may have gaps.
+    HardEdges,
+}
 
 /// Edges and neighbours. While the mesh is enriched, those of the enriched mesh.
 #[derive(Resource, Default)]

@@ -22,12 +22,15 @@ mod stage;
 mod worker;
 
 pub use column::{Column, ColumnMut};
-pub use job::{Counts, InputMesh, JobFailure, Measures, MeshScale, MeshTopology, Settled};
-pub use pipeline::{BuiltinSteps, InstallStep, Pipeline, PipelineSettings, tables};
+pub use job::{
+    Counts, GivenAs, GivenBoundary, InputMarkings, InputMesh, JobFailure, Measures, MeshScale,
+    MeshTopology, Settled,
+};
+pub use pipeline::{BuiltinSteps, InstallStep, Pipeline, PipelineKind, PipelineSettings, tables};
 pub use plugin::{
-    Classifier, Clusters, CommandSettings, CurvatureSamples, LabelledMesh, Labels, MakeSystems,
-    PluginChoice, PluginEntry, Rectifier, Registry, SwappableStage, classifier_systems,
-    rectifier_systems,
+    Classifier, Clusters, CommandSettings, CurvatureSamples, EndFate, LabelledMesh, Labels,
+    MakeSystems, OpenEnd, OpenEnds, PluginChoice, PluginEntry, Rectifier, Registry, SwappableStage,
+    classifier_systems, rectifier_systems,
 };
 pub use results::Segmentation;
 pub use stage::{Stage, StageSystems, StepError, fallible};

@@ -13,10 +13,27 @@ use crate::settings::{self, OutOfRange, Profile, SettingsError, SettingsTable, S
 /// Puts systems into a schedule and their settings into its world.
 pub type InstallStep = Arc<dyn Fn(&mut World, &mut Schedule) + Send + Sync>;
 
-/// The `[pipeline]` table: which profile, which plugins.
+/// What a pipeline does with a mesh.
+#[derive(
+    Resource, Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema,
+)]
+#[serde(rename_all = "lowercase")]
+pub enum PipelineKind {
+    /// Cuts it into patches.
+    #[default]
+    Segment,
+    /// Cleans and closes the boundaries that another tool has found: labels, edges, or hard edges
+    /// (`[hard-edges]`). Nothing is classified, grown or merged.
+    Rectify,
+}
+
+/// The `[pipeline]` table: what is done, by which profile, with which plugins.
 #[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct PipelineSettings {
+    /// `segment`, or `rectify`: clean the boundaries that another tool has found. On the command line it is the
+    /// command that says so.
+    pub kind: PipelineKind,
     /// The set of defaults: `cad` or `lavoue2005`.
     pub profile: Profile,
     /// The plugin that gives each curvature sample a cluster; empty: the first registered. A program of your
@@ -34,6 +51,7 @@ impl StepSettings for PipelineSettings {
 
     fn defaults(profile: Profile) -> Self {
         Self {
+            kind: PipelineKind::default(),
             profile,
             classifier: PluginChoice::DEFAULT,
             rectifier: PluginChoice::DEFAULT,
@@ -56,6 +74,8 @@ pub struct BuiltinSteps {
     pub with_chosen_classifier: &'static [(&'static str, &'static str, bool)],
     /// Reads the tables in force and gives what installs the steps.
     pub install: fn(&Table) -> Result<InstallStep, SettingsError>,
+    /// The tables that have no part in a pipeline of this kind.
+    pub idle: fn(PipelineKind) -> &'static [&'static str],
 }
 
 /// Everything a worker needs to know, ready to be shared by all of them.
@@ -64,6 +84,7 @@ pub struct Pipeline {
     install: Vec<InstallStep>,
     in_force: Table,
     threads: usize,
+    kind: PipelineKind,
 }
 
 impl Pipeline {
@@ -88,14 +109,18 @@ impl Pipeline {
 
         let mut install = vec![(builtin.install)(&in_force)?];
         let PipelineSettings {
+            kind,
             classifier,
             rectifier,
             ..
         } = &mut pipeline;
-        for (stage, choice) in [
-            (SwappableStage::Classify, classifier),
-            (SwappableStage::Rectify, rectifier),
-        ] {
+        let kind = *kind;
+        let classify = (SwappableStage::Classify, classifier);
+        let classify = (kind == PipelineKind::Segment).then_some(classify);
+        for (stage, choice) in classify
+            .into_iter()
+            .chain([(SwappableStage::Rectify, rectifier)])
+        {
             let systems = choose(registry, stage, choice, &in_force)?;
             install.extend(systems.map(|make| install_plugin(stage, make)));
         }
@@ -108,14 +133,21 @@ impl Pipeline {
                 in_force.remove(idle.name);
             }
         }
+        for idle in (builtin.idle)(kind) {
+            in_force.remove(*idle);
+        }
         let threads = pipeline.threads;
         let mut said = Table::try_from(pipeline).expect("settings are tables of plain values");
         said.remove("threads");
+        if kind == PipelineKind::Rectify {
+            said.remove("classifier");
+        }
         in_force.insert(PipelineSettings::TABLE.to_owned(), Value::Table(said));
         Ok(Self {
             install,
             in_force,
             threads,
+            kind,
         })
     }
 
@@ -123,6 +155,11 @@ impl Pipeline {
     /// number of threads is not among them).
     pub fn settings_in_force(&self) -> &Table {
         &self.in_force
+    }
+
+    /// What it does with a mesh.
+    pub fn kind(&self) -> PipelineKind {
+        self.kind
     }
 
     /// Threads used on one mesh; 0: all there are.

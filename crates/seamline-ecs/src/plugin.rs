@@ -41,7 +41,9 @@ use crate::stage::{Stage, StepError};
 
 pub use choice::{CommandSettings, PluginChoice};
 pub use classifier::{Classifier, Clusters, CurvatureSamples, classifier_systems};
-pub use rectifier::{LabelledMesh, Labels, Rectifier, rectifier_systems};
+pub use rectifier::{
+    EndFate, LabelledMesh, Labels, OpenEnd, OpenEnds, Rectifier, rectifier_systems,
+};
 pub use registry::{MakeSystems, OutsideSystems, PluginEntry, Registry};
 
 /// A stage that plugins fill.

@@ -3,9 +3,10 @@
 use std::collections::BTreeMap;
 
 use bevy_ecs::prelude::*;
-use seamline_mesh::Findings;
+use seamline_mesh::{Findings, PolygonMesh};
 use serde::Serialize;
 
+use crate::plugin::EndFate;
 use crate::stage::Stage;
 
 /// The patches of one mesh and all that is reported of them. Lengths, areas and curvatures are in the
@@ -20,6 +21,10 @@ pub struct Segmentation {
     pub boundaries: Vec<Boundary>,
     /// Curvature at each welded vertex.
     pub vertices: VertexQuantities,
+    /// What rectifying has changed, where boundaries were given; `None` where the mesh was segmented.
+    pub changes: Option<Changes>,
+    /// The mesh whose triangles boundaries run through, where they may.
+    pub refined: Option<RefinedMesh>,
     /// What the mesh is and what was wrong with it.
     pub findings: Findings,
     /// One a stage, in order.
@@ -164,9 +169,100 @@ pub struct Boundary {
     pub length: f64,
     /// Share of the length that lies on sharp edges, 0 to 1.
     pub sharp_share: f64,
-    /// The curves, as welded vertices; a closed one ends where it begins.
+    /// The curves, as welded vertices; a closed one ends where it begins. Without those that were added.
     #[serde(skip)]
     pub polylines: Vec<Vec<u32>>,
+    /// The curves along edges that were added to the boundaries given; none where the mesh was segmented.
+    #[serde(skip)]
+    pub added: Vec<Vec<u32>>,
+}
+
+/// A mesh whose triangles were cut along its boundaries, in the file's unit.
+#[derive(Clone, Debug, Serialize)]
+pub struct RefinedMesh {
+    /// Vertices that were added, after those of the welded mesh.
+    pub vertices_added: usize,
+    /// The boundaries as they run now.
+    pub boundary: BoundaryMeasure,
+    /// Its vertices and triangles.
+    #[serde(skip)]
+    pub polygons: PolygonMesh,
+    /// The patch of each triangle.
+    #[serde(skip)]
+    pub patches: Vec<u32>,
+    /// Curvature at each vertex.
+    #[serde(skip)]
+    pub vertices: VertexQuantities,
+    /// The curves of each pair of patches.
+    #[serde(skip)]
+    pub curves: Vec<([u32; 2], Vec<Vec<u32>>)>,
+}
+
+/// What rectifying has changed of the boundaries given. Lengths are in the file's unit, vertices those of the
+/// welded mesh.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct Changes {
+    /// Ends of contours that were open and are not any more.
+    pub open_ends_closed: usize,
+    /// Ends of contours that are still open.
+    pub open_ends_left: usize,
+    /// Each open end and what became of it, by vertex.
+    pub open_ends: Vec<OpenEndReport>,
+    /// Edges by what became of them.
+    pub edges: EdgeChanges,
+    /// The boundaries as they were given.
+    pub before: BoundaryMeasure,
+    /// The boundaries of the patches.
+    pub after: BoundaryMeasure,
+    /// Curves along edges that were given and are boundaries no longer.
+    #[serde(skip)]
+    pub removed_curves: Vec<Vec<u32>>,
+    /// Curves along edges that were given and lie inside one patch.
+    #[serde(skip)]
+    pub crease_curves: Vec<Vec<u32>>,
+}
+
+/// Edges of boundaries by what became of them. `given` is `kept + removed + creases`.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+pub struct EdgeChanges {
+    /// Given.
+    pub given: usize,
+    /// Given, and boundaries still.
+    pub kept: usize,
+    /// Boundaries that were not given.
+    pub added: usize,
+    /// Given, and no boundaries any more.
+    pub removed: usize,
+    /// Given, and kept inside one patch.
+    pub creases: usize,
+}
+
+/// How long boundaries are, and how straight.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+pub struct BoundaryMeasure {
+    /// Edges.
+    pub edges: usize,
+    /// Their length.
+    pub length: f64,
+    /// Mean turn in degrees at the vertices where just two of them meet; straight on is 0.
+    pub mean_turn_deg: f64,
+    /// Share of these turns that are above 45 degrees.
+    pub sharp_turn_share: f64,
+    /// Vertices where they end.
+    pub open_ends: usize,
+}
+
+/// An open end of a contour.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct OpenEndReport {
+    /// The welded vertex it is at.
+    pub vertex: u32,
+    /// What became of it.
+    pub fate: EndFate,
+    /// Edges added from here.
+    pub edges: u32,
+    /// Their length.
+    pub length: f64,
 }
 
 /// What a stage did to this mesh.

@@ -7,11 +7,14 @@ use std::time::Instant;
 use bevy_ecs::prelude::*;
 use bevy_ecs::schedule::SingleThreadedExecutor;
 use rayon::{ThreadPool, ThreadPoolBuilder};
-use seamline_mesh::Mesh;
+use seamline_mesh::{Markings, Mesh};
 use thiserror::Error;
 
-use crate::job::{Counts, InputMesh, JobFailure, Measures, MeshTopology, Settled};
+use crate::job::{
+    Counts, GivenBoundary, InputMarkings, InputMesh, JobFailure, Measures, MeshTopology, Settled,
+};
 use crate::pipeline::Pipeline;
+use crate::plugin::OpenEnds;
 use crate::results::{Segmentation, StageRecord};
 use crate::stage::Stage;
 
@@ -94,6 +97,18 @@ impl Worker {
     ///
     /// Errors: the failure of a step, with its stage.
     pub fn segment(&mut self, mesh: Arc<Mesh>) -> Result<Segmentation, StageError> {
+        self.run(mesh, None)
+    }
+
+    /// Sends one mesh through the pipeline, with what another tool has marked on it. A pipeline that segments
+    /// does not look at that; one that rectifies needs it, but for one that looks for hard edges itself.
+    ///
+    /// Errors: the failure of a step, with its stage.
+    pub fn run(
+        &mut self,
+        mesh: Arc<Mesh>,
+        markings: Option<Arc<Markings>>,
+    ) -> Result<Segmentation, StageError> {
         let rows = mesh.triangles.len();
         if rows < self.rows / 2 {
             (self.world, self.schedule) = fresh(&self.pipeline, &self.progress);
@@ -101,6 +116,9 @@ impl Worker {
         self.rows = rows;
 
         self.world.insert_resource(InputMesh(mesh));
+        if let Some(markings) = markings {
+            self.world.insert_resource(InputMarkings(markings));
+        }
         self.world.insert_resource(JobFailure::default());
         self.world.resource_mut::<Counts>().clear();
         self.world.resource_mut::<Measures>().clear();
@@ -118,6 +136,7 @@ impl Worker {
             None => schedule.run(world),
         }
         self.world.remove_resource::<InputMesh>();
+        self.world.remove_resource::<InputMarkings>();
         self.collect()
     }
 
@@ -162,6 +181,8 @@ fn fresh(pipeline: &Pipeline, progress: &Progress) -> (World, Schedule) {
     world.insert_resource(progress.clone());
     world.init_resource::<MeshTopology>();
     world.init_resource::<Counts>();
+    world.init_resource::<GivenBoundary>();
+    world.init_resource::<OpenEnds>();
     world.init_resource::<Settled>();
     world.init_resource::<Measures>();
 

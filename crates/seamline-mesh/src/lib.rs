@@ -6,6 +6,7 @@
 //! daemon.
 
 mod findings;
+mod markings;
 mod mesh;
 mod polygon_mesh;
 mod read;
@@ -17,6 +18,7 @@ mod weld;
 pub mod write;
 
 pub use findings::{Findings, examine};
+pub use markings::{Markings, MarkingsError, Wanted};
 pub use mesh::Mesh;
 pub use polygon_mesh::{Format, PolygonMesh};
 pub use read::{Place, ReadError, read, read_bytes};

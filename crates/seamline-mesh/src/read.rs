@@ -23,6 +23,10 @@ pub use error::{Place, ReadError};
 use crate::PolygonMesh;
 use sniff::Kind;
 
+pub(crate) use error::quote;
+pub(crate) use obj_lines::Lines as ObjLines;
+pub(crate) use ply::open as open_ply;
+
 /// Reads a mesh file.
 ///
 /// # Errors
@@ -52,7 +56,7 @@ pub fn read_bytes(bytes: &[u8], name_hint: &Path) -> Result<PolygonMesh, ReadErr
 }
 
 /// Drops a UTF-8 byte-order mark and turns UTF-16 with a mark into UTF-8; anything else stays.
-fn as_eight_bit_text(bytes: &[u8]) -> Cow<'_, [u8]> {
+pub(crate) fn as_eight_bit_text(bytes: &[u8]) -> Cow<'_, [u8]> {
     let utf16 = |unit: fn([u8; 2]) -> u16| {
         let units = bytes[2..].as_chunks().0.iter().map(|&pair| unit(pair));
         let text: String = char::decode_utf16(units)

@@ -14,7 +14,7 @@ use std::io::{self, Write};
 pub use colour::patch_colour;
 pub use mesh::{write_obj, write_stl_ascii, write_stl_binary};
 pub use patches::{VertexQuantities, write_ply};
-pub use polylines::{PatchBoundary, write_polylines};
+pub use polylines::{CurveGroup, write_polylines};
 
 /// Pieces in which text is handed on.
 const PIECE: usize = 1 << 16;

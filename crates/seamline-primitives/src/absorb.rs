@@ -166,7 +166,9 @@ fn polish(view: View, regions: &mut Regions, fitted: &mut Vec<usize>) {
     for region in regions.alive().collect::<Vec<_>>() {
         let own = &regions.all[region as usize];
         let now = own.pieces.len();
-        if own.surface.kind == Kind::Plane || std::mem::replace(&mut fitted[region as usize], now) == now {
+        if own.surface.kind == Kind::Plane
+            || std::mem::replace(&mut fitted[region as usize], now) == now
+        {
             continue;
         }
         let points = view.some_points(&own.pieces, MOST_POINTS);

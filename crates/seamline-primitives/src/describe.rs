@@ -25,8 +25,9 @@ pub(crate) fn surfaces(
     let of_part = |part: u32| match parts.forms.get(part as usize) {
         Some(Form::Surface(region)) => Some(fitted(view, &regions.all[*region as usize])),
         Some(Form::Plane) => Some(plane(view, pieces_of[part as usize][0])),
-        Some(Form::Free) => whole(view, &pieces_of[part as usize], tolerance)
-            .map(|found| fitted(view, &found)),
+        Some(Form::Free) => {
+            whole(view, &pieces_of[part as usize], tolerance).map(|found| fitted(view, &found))
+        }
         // Creases cut free forms, and number them beyond the parts.
         None => None,
     };

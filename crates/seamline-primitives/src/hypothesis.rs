@@ -123,7 +123,8 @@ impl View<'_> {
 
     /// Normals and centroids of pieces.
     pub fn facets(&self, pieces: &[u32]) -> Facets {
-        let pick = |of: &[DVec3]| -> Vec<DVec3> { pieces.iter().map(|&p| of[p as usize]).collect() };
+        let pick =
+            |of: &[DVec3]| -> Vec<DVec3> { pieces.iter().map(|&p| of[p as usize]).collect() };
         Facets {
             normals: pick(&self.pieces.normals),
             centroids: pick(&self.pieces.centroids),

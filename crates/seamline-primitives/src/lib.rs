@@ -137,7 +137,8 @@ pub fn find(positions: &[DVec3], topology: &Topology, farthest: f64) -> Found {
     }
     // What is free now may lie on a neighbour, and triangles of two neighbours in one plane by chance.
     let mut all = 0..pieces.count() as u32;
-    let pieces = if all.any(|p| regions.owner[p as usize] == NONE && pieces.faces.row(p).len() > 1) {
+    let pieces = if all.any(|p| regions.owner[p as usize] == NONE && pieces.faces.row(p).len() > 1)
+    {
         recut(ground, precision, PLANE_VERTICES[0], pieces, &mut regions)
     } else {
         pieces

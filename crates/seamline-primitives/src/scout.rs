@@ -109,9 +109,9 @@ impl<'a> Scout<'a> {
                 let mut pair = one.clone();
                 pair.extend(other.iter().filter(|p| !one.contains(p)));
                 for kind in [Kind::Cone, Kind::Torus] {
-                    let refuted = spoke[kind as usize - 1].iter().any(|&j| {
-                        j == i || stars[j] == *other
-                    });
+                    let refuted = spoke[kind as usize - 1]
+                        .iter()
+                        .any(|&j| j == i || stars[j] == *other);
                     if !refuted && !self.settled(&best, kind) {
                         self.attempt(seed, kind, &pair, &mut best);
                     }
@@ -154,11 +154,7 @@ impl<'a> Scout<'a> {
 
     /// Tries the discs about a seed, the largest first. `None` if one proved to be of a surface, so that smaller
     /// neighbourhoods can tell nothing more; else the midst of the discs.
-    fn on_discs(
-        &mut self,
-        seed: u32,
-        best: &mut [Option<Hypothesis>; 4],
-    ) -> Option<Vec<u32>> {
+    fn on_discs(&mut self, seed: u32, best: &mut [Option<Hypothesis>; 4]) -> Option<Vec<u32>> {
         let mut disc = self.around.disc(seed);
         let midst = disc[..disc.len().min(MOST_IN_RING)].to_vec();
         while disc.len() > MOST_IN_RING {

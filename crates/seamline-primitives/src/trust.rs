@@ -76,7 +76,9 @@ fn is_natural(
             } else {
                 let both_small =
                     own.evidence < SMALL && regions.all[owner as usize].evidence < SMALL;
-                trusted[owner as usize] && !both_small && (own.exact || regions.all[owner as usize].exact)
+                trusted[owner as usize]
+                    && !both_small
+                    && (own.exact || regions.all[owner as usize].exact)
             };
             if speaks {
                 natural += at.length;

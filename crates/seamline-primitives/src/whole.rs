@@ -58,4 +58,3 @@ pub(crate) fn whole(view: View, pieces: &[u32], tolerance: f64) -> Option<Hypoth
                 .then(|| view.weigh(surface, sign, pieces.to_vec(), tolerance))
         })
 }
-

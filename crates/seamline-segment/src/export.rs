@@ -1,23 +1,36 @@
 //! Export: finished patches, their boundaries, and curvature in the file's own unit.
 
 use bevy_ecs::prelude::*;
+use bevy_ecs::system::SystemParam;
 use rayon::prelude::*;
 use seamline_ecs::components::*;
 use seamline_ecs::results::{Boundary, PatchReport, PatchSummary, Segmentation, VertexQuantities};
 use seamline_ecs::rows::{self, Patches};
-use seamline_ecs::{Column, ColumnMut, Counts, InputMesh, MeshScale, Stage, StageSystems};
+use seamline_ecs::{
+    Column, ColumnMut, Counts, GivenBoundary, InputMesh, MeshScale, OpenEnd, OpenEnds,
+    PipelineKind, Stage, StageSystems,
+};
 use seamline_mesh::{EdgeKind, Findings, Mesh, Topology, examine};
 
 use crate::boundaries::chains;
+use crate::changes::{changes, mesh_edge};
 use crate::curvature::principal_frames;
 use crate::eigen::free_principal_frame;
 use crate::face_patches::{FacePatches, number_patches};
+use crate::refine::{RefinedRows, refine_boundaries};
+use crate::refined::refined_mesh;
 use crate::spatial_order::SpatialOrder;
 use crate::surfaces::{SurfaceSettings, patch_surfaces};
 use crate::tensor::{Bending, BendingColumns, TensorForm, face_tensors, over, vertex_tensors};
 
-pub(crate) fn systems() -> StageSystems {
-    number.pipe(collect).pipe(make_rows).in_set(Stage::Export)
+/// With `refines` boundaries may run through triangles.
+pub(crate) fn systems(refines: bool) -> StageSystems {
+    let export = number.pipe(collect).pipe(make_rows);
+    if refines {
+        (refine_boundaries, export).chain().in_set(Stage::Export)
+    } else {
+        export.in_set(Stage::Export)
+    }
 }
 
 fn number(
@@ -42,6 +55,7 @@ fn collect(
     face_surfaces: Column<FaceSurface>,
     surfaces: Column<Surface>,
     looked_for: Res<SurfaceSettings>,
+    given: GivenColumns,
 ) -> Segmentation {
     let bending = columns.lend();
     let curvatures = face_curvatures(&bending, &facet_of_face, &samples);
@@ -52,6 +66,7 @@ fn collect(
         curvatures: &curvatures,
         labels: &labels,
         length: scale.length,
+        given: given.lend(),
     };
     let found = looked_for.enabled.then(|| {
         let shapes = rows.bending.shapes;
@@ -68,6 +83,40 @@ fn collect(
     segmentation
 }
 
+/// What was given to be rectified, and what became of it.
+#[derive(SystemParam)]
+struct GivenColumns<'w, 's> {
+    kind: Res<'w, PipelineKind>,
+    boundary: Res<'w, GivenBoundary>,
+    contours: Column<'w, 's, ContourState>,
+    open_ends: Res<'w, OpenEnds>,
+    refined: Res<'w, RefinedRows>,
+}
+
+impl GivenColumns<'_, '_> {
+    fn lend(&self) -> Option<Given<'_>> {
+        (*self.kind == PipelineKind::Rectify).then_some(Given {
+            edges: &self.boundary.edges,
+            contours: &self.contours,
+            open_ends: &self.open_ends.0,
+            refined: (!self.refined.triangles.is_empty()).then_some(&*self.refined),
+        })
+    }
+}
+
+/// Boundaries that were given to be rectified.
+#[derive(Clone, Copy)]
+pub struct Given<'a> {
+    /// The edges they ran along, rising.
+    pub edges: &'a [u32],
+    /// What has become of each edge of the mesh.
+    pub contours: &'a [ContourState],
+    /// What has become of the open ends.
+    pub open_ends: &'a [OpenEnd],
+    /// The mesh whose triangles boundaries run through, if they may.
+    pub refined: Option<&'a RefinedRows>,
+}
+
 /// A finished mesh in rows.
 pub struct LabelledRows<'a> {
     /// Geometry.
@@ -82,17 +131,23 @@ pub struct LabelledRows<'a> {
     pub labels: &'a [FaceLabel],
     /// The scale ([`MeshScale`]).
     pub length: f64,
+    /// The boundaries given, where they were to be rectified.
+    pub given: Option<Given<'a>>,
 }
 
 /// Everything told of finished patches, by the mesh's own vertices and in its own unit.
 pub fn describe(mesh: &Mesh, rows: &LabelledRows, patches: FacePatches) -> Segmentation {
     let boundaries = boundaries(rows);
     let summaries = summaries(rows, &patches);
+    let vertices = vertex_quantities(rows);
+    let refined = rows.given.and_then(|given| given.refined);
     Segmentation {
         face_patches: patches.of_face,
         patches: with_neighbours(summaries, &boundaries),
         boundaries,
-        vertices: vertex_quantities(rows),
+        refined: refined.map(|refined| refined_mesh(mesh, rows, refined, &vertices)),
+        vertices,
+        changes: rows.given.map(|given| changes(rows, given)),
         findings: findings(mesh, rows.bending.topology),
         stages: Vec::new(),
     }
@@ -180,7 +235,6 @@ fn vertex_quantities(rows: &LabelledRows) -> VertexQuantities {
 fn boundaries(rows: &LabelledRows) -> Vec<Boundary> {
     let LabelledRows {
         bending,
-        order,
         labels,
         length,
         ..
@@ -224,17 +278,21 @@ fn boundaries(rows: &LabelledRows) -> Vec<Boundary> {
                 .filter(|(_, (_, e))| bending.sharp[*e as usize].0)
                 .map(|(length, _)| length)
                 .sum();
-            let ends: Vec<_> = common
-                .iter()
-                .map(|&(_, e)| {
-                    topology.edge_vertices[e as usize].map(|row| order.vertex_of_row[row as usize])
-                })
-                .collect();
+            let is_added = |edge: u32| {
+                rows.given
+                    .is_some_and(|given| given.edges.binary_search(&edge).is_err())
+            };
+            let curves = |added: bool| {
+                let wanted = common.iter().filter(|&&(_, e)| is_added(e) == added);
+                let ends: Vec<_> = wanted.map(|&(_, e)| mesh_edge(rows, e)).collect();
+                chains(&ends)
+            };
             Boundary {
                 patches: common[0].0,
                 length: whole * length,
                 sharp_share: if whole > 0.0 { sharp / whole } else { 0.0 },
-                polylines: chains(&ends),
+                polylines: curves(false),
+                added: curves(true),
             }
         })
         .collect()

@@ -29,6 +29,7 @@ use crate::lock::{InstanceLock, LockError};
 use crate::metrics::Metrics;
 use crate::mounts::trusts_events;
 use crate::outputs::sweep_leftovers;
+use crate::pairs::{markings_in, markings_of};
 use crate::setup::Setup;
 use crate::shown;
 use crate::tracker::FileFact;
@@ -154,7 +155,7 @@ pub fn run(
         check_presence(&setup.config)?;
     }
     let setup = Arc::new(setup);
-    let mut lookout = Lookout::new(&setup.config, options.once);
+    let mut lookout = Lookout::new(&setup.config, setup.has_pairs(), options.once);
     if options.dry_run {
         return Ok(Summary {
             listed: still_to_be_cut(lookout.list(), &setup),
@@ -219,12 +220,17 @@ fn still_to_be_cut(files: Vec<FileFact>, setup: &Arc<Setup>) -> Vec<PathBuf> {
         let settings = &setup.for_file(&file.path).settings_hash;
         let known = ledger.as_ref();
         known.is_some_and(|ledger| {
-            let ended = ledger.has_ended(&file.path, &file.stamp.word(), settings);
+            let markings = files.iter().find(|other| {
+                setup.is_of_pair(&file.path) && markings_of(&file.path).contains(&other.path)
+            });
+            let stamp = job::stamp_word(file.stamp, markings.map(|markings| markings.stamp));
+            let ended = ledger.has_ended(&file.path, &stamp, settings);
             ended.unwrap_or(false)
         })
     };
-    let open = files.into_iter().filter(|file| !has_ended(file));
-    open.map(|file| file.path).collect()
+    let is_mesh = |file: &&FileFact| markings_in(&file.path).is_none();
+    let open = files.iter().filter(is_mesh).filter(|file| !has_ended(file));
+    open.map(|file| file.path.clone()).collect()
 }
 
 pub(super) fn make_folders(config: &Config) -> Result<(), WatchError> {

@@ -20,6 +20,7 @@ pub mod memory;
 pub mod metrics;
 pub mod mounts;
 pub mod outputs;
+pub mod pairs;
 pub mod quarantine;
 pub mod relocate;
 pub mod retry;
@@ -31,7 +32,7 @@ pub mod tracker;
 
 pub use config::{Config, ConfigError, ConfigFile};
 pub use daemon::{Order, Reload, RunOptions, Summary, WatchError, run};
-pub use load::{LoadError, LoadedMesh, load, weld_share};
+pub use load::{LoadError, LoadedMarkings, LoadedMesh, load, load_markings, weld_share};
 pub use outputs::{JobFacts, OutputError, WriteSet, report, write_results};
 pub use setup::Setup;
 pub use shown::shown;

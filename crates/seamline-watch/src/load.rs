@@ -2,11 +2,14 @@
 
 use std::fs::{self, File};
 use std::io::{self, Read};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use seamline_mesh::{Format, Mesh, ReadError, read_bytes, tolerance_from_share, weld};
+use seamline_mesh::{
+    Format, Markings, MarkingsError, Mesh, ReadError, Wanted, read_bytes, tolerance_from_share,
+    weld,
+};
 
 use crate::tracker::Stamp;
 
@@ -17,6 +20,8 @@ pub struct LoadedMesh {
     pub mesh: Arc<Mesh>,
     /// BLAKE3 of the file's bytes, in hexadecimal.
     pub hash: String,
+    /// What tells one job's input from another's: the hash, and with markings one of both hashes.
+    pub content: String,
     /// The format found.
     pub format: Format,
     /// Length of the file.
@@ -25,6 +30,19 @@ pub struct LoadedMesh {
     pub stamp: Stamp,
     /// How long reading, parsing and welding took, by the clock.
     pub took: Duration,
+    /// What another tool has marked on it.
+    pub markings: Option<LoadedMarkings>,
+}
+
+/// What another tool has marked on a mesh, and the file it came from.
+#[derive(Clone, Debug)]
+pub struct LoadedMarkings {
+    /// Labels or edges.
+    pub markings: Arc<Markings>,
+    /// The file.
+    pub path: PathBuf,
+    /// BLAKE3 of its bytes, in hexadecimal.
+    pub hash: String,
 }
 
 /// Why a file gave no mesh. `Display` is one line without the name of the file.
@@ -47,6 +65,14 @@ pub enum LoadError {
         /// BLAKE3 of the file's bytes, in hexadecimal.
         hash: String,
     },
+    /// The bytes are no markings, or do not fit their mesh.
+    #[error("{error}")]
+    Markings {
+        /// What is wrong with them.
+        error: MarkingsError,
+        /// BLAKE3 of the file's bytes, in hexadecimal.
+        hash: String,
+    },
 }
 
 impl LoadError {
@@ -57,23 +83,28 @@ impl LoadError {
             Self::NotAFile => "name a file",
             Self::Changed => "wait until the program that writes it has finished",
             Self::Mesh { error, .. } => error.hint(),
+            Self::Markings { error, .. } => error.hint(),
         }
     }
 
     /// Whether the bytes are at fault, so that trying again cannot help.
     pub fn is_of_content(&self) -> bool {
-        matches!(self, Self::Mesh { .. })
+        matches!(self, Self::Mesh { .. } | Self::Markings { .. })
     }
 
     /// Whether the bytes say of themselves that more were to come.
     pub fn is_truncated(&self) -> bool {
-        matches!(self, Self::Mesh { error, .. } if error.is_truncated())
+        match self {
+            Self::Mesh { error, .. } => error.is_truncated(),
+            Self::Markings { error, .. } => error.is_truncated(),
+            _ => false,
+        }
     }
 
     /// The hash of the content, where it was read.
     pub fn hash(&self) -> Option<&str> {
         match self {
-            Self::Mesh { hash, .. } => Some(hash),
+            Self::Mesh { hash, .. } | Self::Markings { hash, .. } => Some(hash),
             _ => None,
         }
     }
@@ -172,12 +203,55 @@ pub fn mesh_of(file: FileBytes, path: &Path, weld_share: f64) -> Result<LoadedMe
     let mesh = Arc::new(weld(polygons, tolerance));
     Ok(LoadedMesh {
         mesh,
+        content: hash.clone(),
         hash,
         format,
         bytes_len: stamp.size,
         stamp,
         took: took + started.elapsed(),
+        markings: None,
     })
+}
+
+/// One hash of a mesh and its markings, out of those of both.
+pub fn content_of_pair(mesh: &str, markings: &str) -> String {
+    let both = format!("{mesh}+{markings}");
+    blake3::hash(both.as_bytes()).to_hex().to_string()
+}
+
+/// Reads what another tool has marked on a mesh.
+///
+/// # Errors
+///
+/// As [`load`] of files that cannot be read, and [`LoadError::Markings`].
+pub fn load_markings(
+    path: &Path,
+    wanted: Wanted<'_>,
+    mesh: &Mesh,
+) -> Result<LoadedMarkings, LoadError> {
+    markings_of(read_file(path)?, path, wanted, mesh)
+}
+
+/// Reads markings out of what was read from `path`, as [`load_markings`] does.
+///
+/// # Errors
+///
+/// [`LoadError::Markings`].
+pub fn markings_of(
+    file: FileBytes,
+    path: &Path,
+    wanted: Wanted<'_>,
+    mesh: &Mesh,
+) -> Result<LoadedMarkings, LoadError> {
+    let hash = file.hash;
+    match Markings::read(&file.bytes, path, wanted, mesh) {
+        Ok(markings) => Ok(LoadedMarkings {
+            markings: Arc::new(markings),
+            path: path.to_owned(),
+            hash,
+        }),
+        Err(error) => Err(LoadError::Markings { error, hash }),
+    }
 }
 
 fn open(path: &Path) -> Result<File, LoadError> {

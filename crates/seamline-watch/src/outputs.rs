@@ -15,7 +15,7 @@ use seamline_ecs::Segmentation;
 use seamline_ecs::settings::SettingsError;
 use seamline_mesh::Mesh;
 use seamline_mesh::write::{
-    PatchBoundary, VertexQuantities, write_labels, write_ply, write_polylines,
+    CurveGroup, VertexQuantities, write_labels, write_ply, write_polylines,
 };
 use serde::{Deserialize, Serialize};
 
@@ -218,7 +218,8 @@ fn write_one(
     match file {
         OutputFile::Labels => write_labels(out, &segmentation.face_patches),
         OutputFile::Patches => {
-            let of = &segmentation.vertices;
+            let refined = segmentation.refined.as_ref();
+            let of = refined.map_or(&segmentation.vertices, |refined| &refined.vertices);
             let quantities = VertexQuantities {
                 k_min: &of.k_min,
                 k_max: &of.k_max,
@@ -229,23 +230,61 @@ fn write_one(
             let types: Option<Vec<u8>> = types
                 .map(|patch| patch.surface.map(|surface| surface.shape.number()))
                 .collect();
-            let patches = &segmentation.face_patches;
-            write_ply(out, &mesh.polygons, quantities, patches, types.as_deref())
+            let (polygons, patches) = match refined {
+                Some(refined) => (&refined.polygons, &refined.patches),
+                None => (&mesh.polygons, &segmentation.face_patches),
+            };
+            write_ply(out, polygons, quantities, patches, types.as_deref())
         }
         OutputFile::Boundaries => {
-            let curves = segmentation.boundaries.iter();
-            let curves: Vec<_> = curves
-                .map(|b| PatchBoundary {
-                    patches: b.patches,
-                    polylines: &b.polylines,
-                })
-                .collect();
-            write_polylines(out, mesh.positions(), &curves)
+            let refined = segmentation.refined.as_ref();
+            let positions = refined.map_or(mesh.positions(), |refined| &refined.polygons.positions);
+            write_polylines(out, positions, &curve_groups(segmentation))
         }
         OutputFile::Report => {
             serde_json::to_writer_pretty(&mut *out, &report(mesh, segmentation, about))?;
             out.write_all(b"\n")
         }
+    }
+}
+
+/// The curves of each pair of patches. Where boundaries were given, those that were kept are `old` and those that were
+/// added `new`; what was removed and what lies inside one patch are groups of their own.
+fn curve_groups(segmentation: &Segmentation) -> Vec<CurveGroup<'_>> {
+    if let Some(refined) = &segmentation.refined {
+        let curves = refined.curves.iter();
+        return curves
+            .map(|(patches, polylines)| group_of(*patches, "", polylines))
+            .collect();
+    }
+    let Some(changes) = &segmentation.changes else {
+        let boundaries = segmentation.boundaries.iter();
+        return boundaries
+            .map(|boundary| group_of(boundary.patches, "", &boundary.polylines))
+            .collect();
+    };
+    let of_patches = segmentation.boundaries.iter().flat_map(|boundary| {
+        [
+            group_of(boundary.patches, " old", &boundary.polylines),
+            group_of(boundary.patches, " new", &boundary.added),
+        ]
+    });
+    let others = [
+        ("removed", &changes.removed_curves),
+        ("crease", &changes.crease_curves),
+    ];
+    let others = others.into_iter().map(|(name, polylines)| CurveGroup {
+        names: name.to_owned(),
+        polylines,
+    });
+    let all = of_patches.chain(others);
+    all.filter(|group| !group.polylines.is_empty()).collect()
+}
+
+fn group_of<'a>([a, b]: [u32; 2], mark: &str, polylines: &'a [Vec<u32>]) -> CurveGroup<'a> {
+    CurveGroup {
+        names: format!("patch_{a}_patch_{b}{mark}"),
+        polylines,
     }
 }
 

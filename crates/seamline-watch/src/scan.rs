@@ -11,6 +11,7 @@ use std::path::{Component, Path, PathBuf};
 
 use crate::include::{Patterns, is_finished_name};
 use crate::outputs::FOLDER_SUFFIX;
+use crate::pairs::markings_in;
 use crate::tracker::{FileFact, Stamp};
 
 /// What one look found.
@@ -35,6 +36,8 @@ pub struct Search<'a> {
     pub include: &'a Patterns,
     /// Which are not, all the same.
     pub exclude: &'a Patterns,
+    /// Are markings of meshes ([`crate::pairs`]) looked for as well, whatever is included?
+    pub markings: bool,
 }
 
 impl Search<'_> {
@@ -114,7 +117,8 @@ impl Search<'_> {
 
     fn look_at_file(&self, path: &Path, listing: &mut Listing) {
         let relative = path.strip_prefix(self.root).unwrap_or(path);
-        if !self.include.take(relative) || self.exclude.take(relative) {
+        let is_markings = self.markings && markings_in(relative).is_some();
+        if !(is_markings || self.include.take(relative)) || self.exclude.take(relative) {
             return;
         }
         match fs::metadata(path) {

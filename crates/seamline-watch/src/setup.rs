@@ -4,13 +4,14 @@ use std::collections::BTreeMap;
 use std::path::Path;
 use std::sync::Arc;
 
-use seamline_ecs::Pipeline;
+use seamline_ecs::{Pipeline, PipelineKind};
 use toml::Value;
 
 use crate::config::Config;
 use crate::include::Patterns;
 use crate::memory::limit;
 use crate::outputs::OutputFile;
+use crate::pairs::{markings_in, meshes_of};
 
 /// A configuration, its pipeline, and the hash of all that results depend on.
 pub struct Setup {
@@ -25,6 +26,8 @@ pub struct Setup {
     pub memory_limit_bytes: u64,
     /// Are faces split, so that a mesh takes more memory ([`crate::memory::estimate`])?
     pub enriched: bool,
+    /// Is half of what is worked on given by another tool ([`crate::pairs`])?
+    pub needs_markings: bool,
     /// The pipelines of files that a rule takes.
     rules: Vec<(Patterns, Arc<Pipeline>)>,
 }
@@ -50,7 +53,10 @@ impl Setup {
         let given = |table: &str, key: &str| pipeline.settings_in_force().get(table)?.get(key);
         let enriched = given("sharp", "enrich").and_then(Value::as_bool) == Some(true)
             && given("curvature", "carrier").and_then(Value::as_str) == Some("vertices");
+        let looks_itself = given("hard-edges", "strong_deg").and_then(Value::as_float);
+        let rectifies = pipeline.kind() == PipelineKind::Rectify;
         Self {
+            needs_markings: rectifies && looks_itself.is_none_or(|strong| strong == 0.0),
             enriched,
             memory_limit_bytes,
             config,
@@ -67,6 +73,30 @@ impl Setup {
         self
     }
 
+    /// Are there files that need markings?
+    pub fn has_pairs(self: &Arc<Self>) -> bool {
+        let of_rules = self.rules.iter().map(|(_, pipeline)| self.with(pipeline));
+        self.needs_markings || of_rules.into_iter().any(|setup| setup.needs_markings)
+    }
+
+    /// Is a file half of a pair: a mesh that needs markings, or the markings of one?
+    pub fn is_of_pair(self: &Arc<Self>, path: &Path) -> bool {
+        match markings_in(path) {
+            None => self.for_file(path).needs_markings,
+            Some(_) => meshes_of(path)
+                .iter()
+                .any(|mesh| self.for_file(mesh).needs_markings),
+        }
+    }
+
+    fn with(&self, pipeline: &Arc<Pipeline>) -> Self {
+        Self::within(
+            self.config.clone(),
+            Arc::clone(pipeline),
+            self.memory_limit_bytes,
+        )
+    }
+
     /// What a file is cut with: this, or the same with the pipeline of the rule that takes it.
     pub fn for_file(self: &Arc<Self>, path: &Path) -> Arc<Self> {
         let below = self
@@ -76,11 +106,7 @@ impl Setup {
         let relative = below.unwrap_or(path);
         match self.rules.iter().find(|(files, _)| files.take(relative)) {
             None => Arc::clone(self),
-            Some((_, pipeline)) => Arc::new(Self::within(
-                self.config.clone(),
-                Arc::clone(pipeline),
-                self.memory_limit_bytes,
-            )),
+            Some((_, pipeline)) => Arc::new(self.with(pipeline)),
         }
     }
 }

@@ -32,6 +32,7 @@ pub fn pipeline() -> Arc<Pipeline> {
                 schedule.add_systems(one_patch.in_set(Stage::Export));
             }))
         },
+        idle: |_| &[],
     };
     let pipeline = Pipeline::assemble(&steps, &Registry::default(), &toml::Table::new());
     Arc::new(pipeline.unwrap())
@@ -77,6 +78,7 @@ pub fn in_one_patch(mesh: &Mesh) -> Segmentation {
             length: 1.0,
             sharp_share: 0.5,
             polylines: vec![vec![0, 1]],
+            added: Vec::new(),
         }],
         vertices: VertexQuantities {
             k_min: vec![0.0; vertices],
@@ -84,6 +86,8 @@ pub fn in_one_patch(mesh: &Mesh) -> Segmentation {
             d_min: vec![[0.0; 3]; vertices],
             d_max: vec![[0.0; 3]; vertices],
         },
+        changes: None,
+        refined: None,
         findings: examine(mesh, &Topology::build(vertices, mesh.triangles.clone())),
         stages: Vec::new(),
     }

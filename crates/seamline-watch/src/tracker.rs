@@ -213,6 +213,13 @@ impl StabilityTracker {
         }
     }
 
+    /// Was a file given out in the state `stamp`, and has not been seen in another since?
+    pub fn holds(&self, path: &Path, stamp: Stamp) -> bool {
+        self.files
+            .get(path)
+            .is_some_and(|file| file.stamp == stamp && file.phase == Phase::Given)
+    }
+
     /// Is there a file at this path?
     pub fn knows(&self, path: &Path) -> bool {
         self.files.contains_key(path)

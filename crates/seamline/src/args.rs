@@ -19,6 +19,8 @@ pub struct Args {
 pub enum Command {
     /// Cut meshes into patches
     Segment(SegmentArgs),
+    /// Close and clean the boundaries that another tool has found on a mesh
+    Rectify(RectifyArgs),
     /// Watch folders and cut every mesh that is dropped there
     Watch(WatchArgs),
     /// Say what became of every file: pending, running, done, quarantined
@@ -41,6 +43,55 @@ pub struct SegmentArgs {
     /// STL, OBJ or PLY files
     #[arg(required = true, value_name = "MESH")]
     pub meshes: Vec<PathBuf>,
+    #[command(flatten)]
+    pub results: ResultArgs,
+    #[command(flatten)]
+    pub pipeline: PipelineArgs,
+    #[command(flatten)]
+    pub said: SaidArgs,
+}
+
+#[derive(clap::Args, Debug)]
+pub struct RectifyArgs {
+    /// An STL, OBJ or PLY file
+    #[arg(value_name = "MESH")]
+    pub mesh: PathBuf,
+    #[command(flatten)]
+    pub what: WhatArgs,
+    /// What tells the faces apart in a PLY (the name of a property, or colour) or an OBJ (group, object,
+    /// material or smoothing) [default: the first that says more than one thing]
+    #[arg(long, value_name = "NAME", requires = "labels")]
+    pub labels_by: Option<String>,
+    /// Let boundaries run through triangles where they are smoother for it; triangles are cut for them
+    #[arg(long)]
+    pub refine: bool,
+    #[command(flatten)]
+    pub results: ResultArgs,
+    #[command(flatten)]
+    pub pipeline: PipelineArgs,
+    #[command(flatten)]
+    pub said: SaidArgs,
+}
+
+/// What there is to be rectified.
+#[derive(clap::Args, Debug)]
+#[group(required = true, multiple = false)]
+pub struct WhatArgs {
+    /// Labels of the faces: one a line (.seg), a PLY with a number or a colour a face, an OBJ with names, a
+    /// .selection.txt. May be MESH itself
+    #[arg(long, value_name = "F")]
+    pub labels: Option<PathBuf>,
+    /// Edges: two vertex numbers a line, from 0; lines of an OBJ; a .selection.txt. May be MESH itself
+    #[arg(long, value_name = "F")]
+    pub edges: Option<PathBuf>,
+    /// Edges that turn by more degrees than this; as WEAK:STRONG, those above STRONG and those above WEAK that
+    /// continue them
+    #[arg(long, value_name = "ANGLE")]
+    pub sharp_deg: Option<String>,
+}
+
+#[derive(clap::Args, Debug)]
+pub struct ResultArgs {
     /// Folder the results go to: part.stl gives DIR/part.stl.seamline/
     #[arg(short, long, value_name = "DIR", default_value = ".")]
     pub output: PathBuf,
@@ -50,10 +101,6 @@ pub struct SegmentArgs {
     /// Print one report a line on standard output
     #[arg(long)]
     pub json: bool,
-    #[command(flatten)]
-    pub pipeline: PipelineArgs,
-    #[command(flatten)]
-    pub said: SaidArgs,
 }
 
 /// Settings of the pipeline. Each beats the environment (SEAMLINE_PROFILE, SEAMLINE_MERGE__THRESHOLD, ...),

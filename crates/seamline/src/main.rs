@@ -6,7 +6,9 @@ mod check_plugin;
 mod inspect;
 mod list_plugins;
 mod outcome;
+mod rectify;
 mod requeue;
+mod results;
 mod say;
 mod segment;
 mod settings;
@@ -22,6 +24,7 @@ fn main() -> std::process::ExitCode {
     let args = Args::parse();
     let outcome = match &args.command {
         Command::Segment(segment) => segment::run(segment),
+        Command::Rectify(rectify) => rectify::run(rectify),
         Command::Inspect(inspect) => inspect::run(inspect),
         Command::Watch(watch) => watch::run(watch),
         Command::Status(status) => status::run(status),

@@ -21,18 +21,18 @@ pub fn pipeline_tables() -> Vec<SettingsTable> {
     tables(&builtin_steps(), &seamline_plugins::registry())
 }
 
-/// The pipeline a command asks for.
-pub fn pipeline_of_args(args: &PipelineArgs) -> Result<Pipeline> {
+/// The pipeline a command asks for: `said` are dotted keys that the command itself stands for.
+pub fn pipeline_of_args(args: &PipelineArgs, said: &[(&str, String)]) -> Result<Pipeline> {
     let file = args
         .config
         .as_ref()
         .map(|path| ConfigFile::read(path, &pipeline_tables()));
-    assemble(file.transpose()?.as_ref(), args)
+    assemble(file.transpose()?.as_ref(), args, said)
 }
 
 /// The pipeline of a configuration, with the environment laid over it.
 pub fn pipeline_of_file(file: &ConfigFile) -> Result<Pipeline> {
-    assemble(Some(file), &PipelineArgs::default())
+    assemble(Some(file), &PipelineArgs::default(), &[])
 }
 
 /// The rules of a configuration, each with its pipeline; the environment is laid over all of them.
@@ -49,7 +49,11 @@ pub fn rules_of_file(file: &ConfigFile) -> Result<Vec<(Patterns, Pipeline)>> {
     Ok(rules)
 }
 
-fn assemble(file: Option<&ConfigFile>, args: &PipelineArgs) -> Result<Pipeline> {
+fn assemble(
+    file: Option<&ConfigFile>,
+    args: &PipelineArgs,
+    said: &[(&str, String)],
+) -> Result<Pipeline> {
     let registry = seamline_plugins::registry();
     let assemble = |given: &Table| Pipeline::assemble(&builtin_steps(), &registry, given);
     let mut given = Table::new();
@@ -60,6 +64,9 @@ fn assemble(file: Option<&ConfigFile>, args: &PipelineArgs) -> Result<Pipeline> 
     }
     lay_environment_over(&mut given, env::vars_os())?;
     lay_args_over(&mut given, args)?;
+    for (key, value) in said {
+        set_dotted(&mut given, key, value)?;
+    }
     Ok(assemble(&given)?)
 }
 

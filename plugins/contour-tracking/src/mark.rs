@@ -5,6 +5,18 @@ use seamline_mesh::{Sets, Topology};
 
 use crate::ContourTrackingSettings;
 
+/// Edges between two labels, rising.
+pub(crate) fn boundary(topology: &Topology, labels: &[FaceLabel]) -> Vec<u32> {
+    let parts = |&edge: &u32| {
+        topology
+            .face_pair(edge as usize)
+            .is_some_and(|[a, b]| labels[a as usize] != labels[b as usize])
+    };
+    (0..topology.edge_faces.len() as u32)
+        .filter(parts)
+        .collect()
+}
+
 /// Writes the state of every edge: correct, kept or off the contours. Only edges between two labels are
 /// looked at.
 pub fn mark(
@@ -15,15 +27,7 @@ pub fn mark(
     settings: &ContourTrackingSettings,
     states: &mut [ContourState],
 ) {
-    let is_boundary = |edge: usize| {
-        topology
-            .face_pair(edge)
-            .is_some_and(|[a, b]| labels[a as usize] != labels[b as usize])
-    };
-    let boundary: Vec<u32> = (0..states.len())
-        .filter(|&edge| is_boundary(edge))
-        .map(|edge| edge as u32)
-        .collect();
+    let boundary = boundary(topology, labels);
     states.fill(ContourState::Off);
     for &edge in &boundary {
         let edge = edge as usize;
@@ -37,8 +41,48 @@ pub fn mark(
     }
 }
 
+/// Writes the state of every edge where edges were given: correct or off the contours. Where they are `doubted`, a run
+/// between two junctions in which no edge is correct by its score or its angle is not taken.
+pub fn mark_given(
+    topology: &Topology,
+    scores: &[BoundaryScore],
+    sharp: &[SharpEdge],
+    given: &[u32],
+    doubted: bool,
+    settings: &ContourTrackingSettings,
+    states: &mut [ContourState],
+) {
+    states.fill(ContourState::Off);
+    let is_correct =
+        |edge: u32| scores[edge as usize].0 < settings.correct_below_deg || sharp[edge as usize].0;
+    let (run_of, run_count) = runs(topology, given);
+    let mut believed = vec![!doubted; run_count];
+    for (&edge, &run) in given.iter().zip(&run_of) {
+        believed[run as usize] |= is_correct(edge);
+    }
+    for (&edge, &run) in given.iter().zip(&run_of) {
+        if believed[run as usize] {
+            states[edge as usize] = ContourState::Correct;
+        }
+    }
+}
+
 /// Keeps every run of boundary edges between two junctions in which no edge is correct.
 fn keep_unmarked(topology: &Topology, boundary: &[u32], states: &mut [ContourState]) {
+    let (run_of, run_count) = runs(topology, boundary);
+    let mut marked = vec![false; run_count];
+    for (&edge, &run) in boundary.iter().zip(&run_of) {
+        marked[run as usize] |= states[edge as usize] == ContourState::Correct;
+    }
+    for (&edge, &run) in boundary.iter().zip(&run_of) {
+        if !marked[run as usize] {
+            states[edge as usize] = ContourState::Kept;
+        }
+    }
+}
+
+/// The run of each edge, and how many there are: edges that meet where no third one does are of one run.
+fn runs(topology: &Topology, boundary: &[u32]) -> (Vec<u32>, usize) {
     let vertex_count = topology.vertex_edges.row_count();
     let mut degree = vec![0u32; vertex_count];
     let mut one_of = vec![u32::MAX; vertex_count];
@@ -60,14 +104,5 @@ fn keep_unmarked(topology: &Topology, boundary: &[u32], states: &mut [ContourSta
             }
         }
     }
-    let (run_of, run_count) = runs.numbered();
-    let mut marked = vec![false; run_count];
-    for (&edge, &run) in boundary.iter().zip(&run_of) {
-        marked[run as usize] |= states[edge as usize] == ContourState::Correct;
-    }
-    for (&edge, &run) in boundary.iter().zip(&run_of) {
-        if !marked[run as usize] {
-            states[edge as usize] = ContourState::Kept;
-        }
-    }
+    runs.numbered()
 }

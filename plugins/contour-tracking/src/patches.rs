@@ -4,9 +4,11 @@ use seamline_ecs::components::{ContourState, FaceLabel};
 use seamline_mesh::{Sets, Topology};
 
 /// Labels faces that hang together without crossing a contour alike, numbered by lowest face. Contour edges
-/// with the same patch on both sides are taken off their contour. Gives the number of patches.
+/// with the same patch on both sides are taken off their contour; with `keep_creases` those of them that were not
+/// tracked become creases. Gives the number of patches.
 pub fn patches(
     topology: &Topology,
+    keep_creases: bool,
     states: &mut [ContourState],
     labels: &mut [FaceLabel],
 ) -> usize {
@@ -26,7 +28,10 @@ pub fn patches(
         if let Some([a, b]) = topology.face_pair(edge)
             && labels[a as usize] == labels[b as usize]
         {
-            *state = ContourState::Off;
+            *state = match *state {
+                ContourState::Correct | ContourState::Kept if keep_creases => ContourState::Crease,
+                _ => ContourState::Off,
+            };
         }
     }
     count

@@ -1,12 +1,26 @@
 //! Contours on a sheet of 4 x 4 unit squares, split between its columns 0, 1 and 2, 3.
 
 use glam::dvec3;
-use seamline_contour_tracking::{ContourTrackingSettings, mark, patches, track};
+use seamline_contour_tracking::{ContourTrackingSettings, Ground, mark, patches, track};
 use seamline_ecs::components::{BoundaryScore, ContourState, FaceLabel, Position, SharpEdge};
 use seamline_ecs::settings::{Profile, StepSettings};
 use seamline_mesh::Topology;
 
 const SIDE: u32 = 4;
+
+fn ground<'a>(
+    topology: &'a Topology,
+    positions: &'a [Position],
+    scores: &'a [BoundaryScore],
+) -> Ground<'a> {
+    Ground {
+        topology,
+        positions,
+        scores,
+        turn_weight: 2.0,
+        max_gap: f64::INFINITY,
+    }
+}
 
 struct Sheet {
     topology: Topology,
@@ -77,16 +91,13 @@ impl Sheet {
     }
 
     fn finish(&mut self) -> (usize, usize) {
-        let tracked = track(
-            &self.topology,
-            &self.positions,
-            &self.scores,
-            2.0,
+        let ends = track(
+            ground(&self.topology, &self.positions, &self.scores),
             &mut self.states,
         );
         (
-            tracked.steps,
-            patches(&self.topology, &mut self.states, &mut self.labels),
+            ends.iter().map(|end| end.edges as usize).sum(),
+            patches(&self.topology, false, &mut self.states, &mut self.labels),
         )
     }
 }
@@ -163,7 +174,7 @@ fn a_piece_that_parts_nothing_is_taken_off_its_contour() {
     let inside = sheet.middle(1);
     sheet.states[inside] = ContourState::Correct;
     assert_eq!(
-        patches(&sheet.topology, &mut sheet.states, &mut sheet.labels),
+        patches(&sheet.topology, false, &mut sheet.states, &mut sheet.labels),
         1
     );
     assert_eq!(sheet.states[inside], ContourState::Off);

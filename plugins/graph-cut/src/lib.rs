@@ -74,8 +74,8 @@ impl Rectifier for GraphCutSettings {
         let done = recut(mesh.topology, &costs, self.band_rings, &mut of_face);
         Ok(Labels {
             of_face,
-            contours: Vec::new(),
             counts: vec![("faces_moved", done.moved), ("patches", done.patches)],
+            ..Labels::default()
         })
     }
 }

@@ -3,11 +3,12 @@
 use bevy_ecs::prelude::*;
 use bevy_ecs::system::SystemParam;
 use seamline_mesh::{Mesh, Topology};
+use serde::Serialize;
 
 use super::{StepError, StepSettings, check_answers};
 use crate::column::{Column, ColumnMut};
 use crate::components::*;
-use crate::job::{Counts, InputMesh, MeshTopology};
+use crate::job::{Counts, GivenAs, GivenBoundary, InputMesh, MeshTopology};
 use crate::stage::{Stage, StageSystems, fallible};
 
 /// One way to clean the boundaries of patches. The value is the plugin's settings.
@@ -30,9 +31,41 @@ pub struct Labels {
     pub of_face: Vec<FaceLabel>,
     /// What was done to each edge, one an edge; empty where that is not told.
     pub contours: Vec<ContourState>,
+    /// What became of each open end of a contour, in the order of its vertices; empty where that is not told.
+    pub open_ends: Vec<OpenEnd>,
     /// Numbers for the report, such as how many patches there are.
     pub counts: Vec<(&'static str, usize)>,
 }
+
+/// An open end of a contour, and what became of it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct OpenEnd {
+    /// The vertex it was at.
+    pub vertex: u32,
+    /// What became of it.
+    pub fate: EndFate,
+    /// Edges that were added from here.
+    pub edges: u32,
+    /// Their length.
+    pub length: f64,
+}
+
+/// What becomes of an open end.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum EndFate {
+    /// Closed: edges run from it to a contour.
+    #[default]
+    Closed,
+    /// Closed by another that ran into it.
+    Met,
+    /// Not closed: the gap is too long, or none are closed. What hangs on it encloses no patch.
+    Left,
+}
+
+/// The open ends of the mesh in work, and what became of each.
+#[derive(Resource, Clone, Debug, Default)]
+pub struct OpenEnds(pub Vec<OpenEnd>);
 
 /// A mesh cut into patches whose boundaries are to be cleaned. Lengths are in units of the scaled mesh. Slices
 /// of one kind of element are of one length.
@@ -50,8 +83,13 @@ pub struct LabelledMesh<'a> {
     pub sharp: &'a [SharpEdge],
     /// How badly each edge would serve as a boundary, 0 (well) to 90 degrees.
     pub scores: &'a [BoundaryScore],
-    /// The patch of each face so far, below the number of faces.
+    /// The patch of each face so far, below the number of faces. Where edges were given, what they part.
     pub labels: &'a [FaceLabel],
+    /// The edges that were given as boundaries instead of labels, rising; empty while segmenting, and where labels
+    /// were given. They may end anywhere.
+    pub given_edges: &'a [u32],
+    /// What was given.
+    pub given_as: GivenAs,
     /// The mesh as it was read, in the file's unit, its vertices and faces in the file's order.
     pub mesh: &'a Mesh,
 }
@@ -73,6 +111,7 @@ struct BoundaryColumns<'w, 's> {
     sharp: Column<'w, 's, SharpEdge>,
     scores: Column<'w, 's, BoundaryScore>,
     mesh: Res<'w, InputMesh>,
+    given: Res<'w, GivenBoundary>,
 }
 
 /// The system that lends `rectify` its columns, checks its answer and writes it down.
@@ -82,6 +121,7 @@ pub fn rectifier_systems(
     let system = move |columns: BoundaryColumns,
                        mut labels: ColumnMut<FaceLabel>,
                        mut contours: ColumnMut<ContourState>,
+                       mut open_ends: ResMut<OpenEnds>,
                        mut counts: ResMut<Counts>| {
         let seen = LabelledMesh {
             topology: &columns.topology.0,
@@ -91,6 +131,11 @@ pub fn rectifier_systems(
             sharp: &columns.sharp,
             scores: &columns.scores,
             labels: &labels,
+            given_edges: match columns.given.origin {
+                GivenAs::Nothing | GivenAs::Labels => &[],
+                GivenAs::Edges | GivenAs::HardEdges => &columns.given.edges,
+            },
+            given_as: columns.given.origin,
             mesh: &columns.mesh.0,
         };
         let found = rectify(&seen)?;
@@ -108,6 +153,7 @@ pub fn rectifier_systems(
             ));
         }
         labels.copy_from_slice(&found.of_face);
+        open_ends.0 = found.open_ends;
         for (name, value) in found.counts {
             counts.note(Stage::Rectify, name, value);
         }

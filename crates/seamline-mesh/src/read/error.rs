@@ -147,7 +147,7 @@ impl fmt::Display for Place {
 }
 
 /// A piece of a file for an error message: one line, printable, at most 40 characters.
-pub(super) fn quote(bytes: &[u8]) -> String {
+pub(crate) fn quote(bytes: &[u8]) -> String {
     const LONGEST: usize = 40;
     let start = &bytes[..bytes.len().min(4 * LONGEST)];
     let text: String = String::from_utf8_lossy(start)

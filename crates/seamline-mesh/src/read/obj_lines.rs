@@ -5,13 +5,13 @@ use std::io::{self, BufRead, Read};
 
 /// The logical lines of an OBJ, each with the number of its first line: a backslash at the end of a line
 /// joins it to the next.
-pub(super) struct Lines<'a> {
+pub(crate) struct Lines<'a> {
     rest: &'a [u8],
     next_number: usize,
 }
 
 impl<'a> Lines<'a> {
-    pub(super) fn new(bytes: &'a [u8]) -> Self {
+    pub(crate) fn new(bytes: &'a [u8]) -> Self {
         Self {
             rest: bytes,
             next_number: 1,

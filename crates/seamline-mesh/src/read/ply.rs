@@ -17,21 +17,10 @@ const ELEMENTS_HINT: &str = "needed are `element vertex` with x, y, z and `eleme
 
 /// Reads a PLY.
 pub(super) fn read(bytes: &[u8]) -> Result<PolygonMesh, ReadError> {
-    let (header_text, payload) = split_header(bytes)?;
-    let header = parse_header(&header_text)?;
-    require_elements(&header)?;
-    require_bytes(&header, bytes.len() - payload)?;
-
+    let (header, mut rows) = open(bytes, require_elements)?;
     let mut positions = Vec::new();
     let mut starts = vec![0];
     let mut corners: Vec<u32> = Vec::new();
-    let line = header_text.lines().count() + 1;
-    let mut rows = Rows {
-        bytes,
-        at: payload,
-        encoding: header.encoding,
-        line,
-    };
     for element in header.elements.values() {
         match element.name.as_str() {
             "vertex" => {
@@ -77,6 +66,24 @@ pub(super) fn read(bytes: &[u8]) -> Result<PolygonMesh, ReadError> {
     };
     check(&mesh).map_err(|fault| fault.in_numbers(&mesh))?;
     Ok(mesh)
+}
+
+/// The header, held against what is `required` of it and against the bytes there are, and the rows behind it.
+pub(crate) fn open(
+    bytes: &[u8],
+    required: fn(&Header) -> Result<(), ReadError>,
+) -> Result<(Header, Rows<'_>), ReadError> {
+    let (header_text, payload) = split_header(bytes)?;
+    let header = parse_header(&header_text)?;
+    required(&header)?;
+    require_bytes(&header, bytes.len() - payload)?;
+    let rows = Rows {
+        bytes,
+        at: payload,
+        encoding: header.encoding,
+        line: header_text.lines().count() + 1,
+    };
+    Ok((header, rows))
 }
 
 /// The header with `\n` line ends, and where the payload starts. Comments may be in any encoding.

@@ -142,7 +142,7 @@ fn size(scalar: &ScalarType) -> usize {
 }
 
 /// Walks through the payload.
-pub(super) struct Rows<'a> {
+pub(crate) struct Rows<'a> {
     pub(super) bytes: &'a [u8],
     /// The next byte to read.
     pub(super) at: usize,
@@ -153,7 +153,7 @@ pub(super) struct Rows<'a> {
 
 impl Rows<'_> {
     /// Reads all rows of an element and hands each to `take`, with its place.
-    pub(super) fn read<E: PropertyAccess>(
+    pub(crate) fn read<E: PropertyAccess>(
         &mut self,
         element: &ElementDef,
         mut take: impl FnMut(E, Place) -> Result<(), ReadError>,
@@ -176,7 +176,7 @@ impl Rows<'_> {
     }
 
     /// Passes over all rows of an element.
-    pub(super) fn skip(&mut self, element: &ElementDef) -> Result<(), ReadError> {
+    pub(crate) fn skip(&mut self, element: &ElementDef) -> Result<(), ReadError> {
         let has_list = element
             .properties
             .values()

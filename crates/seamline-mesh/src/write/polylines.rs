@@ -7,16 +7,16 @@ use glam::DVec3;
 use super::in_pieces;
 use super::number::Shortest;
 
-/// The curves two patches share.
-#[derive(Clone, Copy, Debug)]
-pub struct PatchBoundary<'a> {
-    /// The two patches.
-    pub patches: [u32; 2],
+/// Curves that belong together.
+#[derive(Clone, Debug)]
+pub struct CurveGroup<'a> {
+    /// Names of the group, with blanks between them; `patch_A_patch_B` for the curves two patches share.
+    pub names: String,
     /// Vertices along each curve, two at least; a closed one repeats its first at the end.
     pub polylines: &'a [Vec<u32>],
 }
 
-/// Writes an OBJ of lines, one group `patch_A_patch_B` a pair of patches. Only vertices on a curve are
+/// Writes an OBJ of lines, group by group. Only vertices on a curve are
 /// written, in order of first use, each coordinate so that it reads back as the same number.
 ///
 /// # Errors
@@ -25,11 +25,11 @@ pub struct PatchBoundary<'a> {
 pub fn write_polylines(
     out: &mut impl Write,
     positions: &[DVec3],
-    boundaries: &[PatchBoundary<'_>],
+    groups: &[CurveGroup<'_>],
 ) -> io::Result<()> {
     let mut number_of = vec![0u32; positions.len()];
     let mut used = Vec::new();
-    for &vertex in boundaries.iter().flat_map(|b| b.polylines).flatten() {
+    for &vertex in groups.iter().flat_map(|group| group.polylines).flatten() {
         let number = &mut number_of[vertex as usize];
         if *number == 0 {
             used.push(vertex);
@@ -40,10 +40,9 @@ pub fn write_polylines(
         let [x, y, z] = positions[vertex as usize].to_array().map(Shortest);
         writeln!(text, "v {x} {y} {z}")
     })?;
-    in_pieces(out, boundaries, |text, boundary| {
-        let [a, b] = boundary.patches;
-        writeln!(text, "g patch_{a}_patch_{b}")?;
-        for polyline in boundary.polylines {
+    in_pieces(out, groups, |text, group| {
+        writeln!(text, "g {}", group.names)?;
+        for polyline in group.polylines {
             text.push(b'l');
             for &vertex in polyline {
                 write!(text, " {}", number_of[vertex as usize])?;
@@ -67,19 +66,19 @@ mod tests {
             DVec3::Z,
         ];
         let (open, closed) = ([vec![3, 1]], [vec![1, 2, 3, 1], vec![2, 1]]);
-        let boundaries = [
-            PatchBoundary {
-                patches: [0, 4],
+        let groups = [
+            CurveGroup {
+                names: "patch_0_patch_4 old".to_owned(),
                 polylines: &open,
             },
-            PatchBoundary {
-                patches: [2, 3],
+            CurveGroup {
+                names: "patch_2_patch_3".to_owned(),
                 polylines: &closed,
             },
         ];
         let mut out = Vec::new();
-        write_polylines(&mut out, &positions, &boundaries).unwrap();
-        let expected = "v 0 0 1\nv 1 0 0\nv 0.1 1e-20 -3\ng patch_0_patch_4\nl 1 2\ng patch_2_patch_3\nl 2 3 1 2\nl 3 2\n";
+        write_polylines(&mut out, &positions, &groups).unwrap();
+        let expected = "v 0 0 1\nv 1 0 0\nv 0.1 1e-20 -3\ng patch_0_patch_4 old\nl 1 2\ng patch_2_patch_3\nl 2 3 1 2\nl 3 2\n";
         assert_eq!(String::from_utf8(out).unwrap(), expected);
     }
 }

@@ -86,6 +86,9 @@ impl ConfigFile {
 /// The keys of `[pipeline]` that a rule gives.
 fn named(rule: &RuleTable, folder: &Path) -> Table {
     let mut pipeline = Table::new();
+    if !rule.pipeline.is_empty() {
+        pipeline.insert("kind".to_owned(), Value::String(rule.pipeline.clone()));
+    }
     if !rule.profile.is_empty() {
         pipeline.insert("profile".to_owned(), Value::String(rule.profile.clone()));
     }

@@ -140,6 +140,8 @@ mod tests {
             path: name.into(),
             relative: name.into(),
             stamp,
+            markings: None,
+            lone: false,
             overdue: false,
             since: Instant::now(),
             not_before: None,

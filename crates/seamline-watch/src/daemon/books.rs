@@ -23,6 +23,7 @@ use crate::health::{Health, Trouble};
 use crate::ledger::{Ledger, LedgerError};
 use crate::lock::InstanceLock;
 use crate::metrics::Metrics;
+use crate::pairs::Pairs;
 use crate::setup::Setup;
 use crate::{service, shown};
 use tell::Asked;
@@ -57,6 +58,8 @@ pub(super) struct Books {
 struct Open {
     with: Books,
     backlog: Backlog,
+    /// Halves that wait for each other.
+    pairs: Pairs,
     summary: Summary,
     /// Told to stop: what runs has until then.
     stop_by: Option<Instant>,
@@ -76,6 +79,7 @@ impl Books {
         let mut open = Open {
             with: self,
             backlog: Backlog::default(),
+            pairs: Pairs::default(),
             summary: Summary::default(),
             stop_by: None,
             beaten_at: None,

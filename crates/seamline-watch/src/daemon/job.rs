@@ -13,7 +13,7 @@ use crate::ledger::{Fault, JobId};
 use crate::load::LoadedMesh;
 use crate::memory::Pass;
 use crate::setup::Setup;
-use crate::tracker::Stamp;
+use crate::tracker::{FileFact, Stamp};
 
 /// A file that is to be cut, as it waits: no more than its name.
 #[derive(Clone, Debug, PartialEq)]
@@ -26,6 +26,10 @@ pub(super) struct Waiting {
     pub relative: PathBuf,
     /// The state in which it held still.
     pub stamp: Stamp,
+    /// What another tool has marked on it, where that is half of the work.
+    pub markings: Option<FileFact>,
+    /// It is half of a pair whose other half has not come.
+    pub lone: bool,
     /// It has ended early for so long that nothing more is to be expected.
     pub overdue: bool,
     /// When it was found ready.
@@ -37,6 +41,14 @@ pub(super) struct Waiting {
     pub suspicion: u32,
     /// How often it has failed since the daemon was started.
     pub failures: u32,
+}
+
+/// The state of what is worked on as a word: that of the mesh, and of its markings if it has any.
+pub(super) fn stamp_word(mesh: Stamp, markings: Option<Stamp>) -> String {
+    match markings {
+        None => mesh.word(),
+        Some(markings) => format!("{}+{}", mesh.word(), markings.word()),
+    }
 }
 
 /// A job that is worked on.

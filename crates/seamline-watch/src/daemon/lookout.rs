@@ -20,6 +20,10 @@ pub(super) struct Ready {
     pub file: ReadyFile,
     /// Its path within the watched folder.
     pub relative: PathBuf,
+    /// What is marked on it, where that is half of the work.
+    pub markings: Option<FileFact>,
+    /// It is half of a pair whose other half has not come.
+    pub lone: bool,
 }
 
 /// What a look has found.
@@ -49,7 +53,7 @@ pub(super) struct Lookout {
 }
 
 impl Lookout {
-    pub(super) fn new(config: &Config, once: bool) -> Self {
+    pub(super) fn new(config: &Config, markings: bool, once: bool) -> Self {
         let mut lookout = Self {
             roots: Vec::new(),
             glance_every: Duration::ZERO,
@@ -59,21 +63,21 @@ impl Lookout {
             hinted: false,
             once,
         };
-        lookout.retarget(config);
+        lookout.retarget(config, markings);
         lookout
     }
 
     /// From now on another configuration holds. What is known of a folder that is watched as before stays
-    /// known; every folder is listed anew.
-    pub(super) fn retarget(&mut self, config: &Config) {
+    /// known; every folder is listed anew. With `markings` those of meshes are looked for as well.
+    pub(super) fn retarget(&mut self, config: &Config, markings: bool) {
         let mut before = std::mem::take(&mut self.roots);
         for watched in &config.watch {
             let known = before
                 .iter()
                 .position(|root| root.watched().root == watched.root);
             self.roots.push(match known {
-                Some(known) => before.swap_remove(known).with(watched.clone()),
-                None => Root::new(watched.clone()),
+                Some(known) => before.swap_remove(known).with(watched.clone(), markings),
+                None => Root::new(watched.clone(), markings),
             });
         }
         let shortest = config.watch.iter().map(|watched| watched.stable_for).min();
@@ -202,6 +206,12 @@ impl Lookout {
     pub(super) fn is_missing(&mut self, path: &Path) -> bool {
         self.root_of(path)
             .is_some_and(|root| !root.is_away() && !root.tracker.knows(path))
+    }
+
+    /// Is a file there, still in the state in which it became ready?
+    pub(super) fn holds(&self, file: &ReadyFile) -> bool {
+        let root = innermost(self.roots.iter(), &file.path, |root| root.watched());
+        root.is_some_and(|root| root.is_away() || root.tracker.holds(&file.path, file.stamp))
     }
 
     /// Is no file left that is still to hold still? Empty files, and those that end early, apart.

@@ -97,6 +97,7 @@ fn everything(root: &Path) -> std::io::Result<Listing> {
         recursive: true,
         include: &include,
         exclude: &exclude,
+        markings: false,
     };
     search.all()
 }

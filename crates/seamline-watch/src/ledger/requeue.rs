@@ -9,6 +9,7 @@ use rusqlite::{Connection, OpenFlags, OptionalExtension, params};
 
 use super::row::{self, COLUMNS};
 use super::{JobId, JobState, LedgerError, Row, now_ms, open_existing};
+use crate::pairs::{beside, markings_in, markings_of};
 use crate::quarantine::reason_beside;
 use crate::relocate::move_aside;
 use crate::tracker::Stamp;
@@ -161,6 +162,11 @@ fn bring_back(row: &Row) -> io::Result<(PathBuf, Stamp)> {
         }
         Some(source) => {
             let path = move_aside(source, &row.path)?;
+            for markings in markings_of(source) {
+                if markings_in(source).is_none() && markings.is_file() {
+                    move_aside(&markings, &beside(&path, &markings))?;
+                }
+            }
             if row.state == JobState::Quarantined {
                 let _ = fs::remove_file(reason_beside(source));
             }

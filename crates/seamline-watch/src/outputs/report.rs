@@ -6,10 +6,12 @@
 use std::path::Path;
 
 use seamline_ecs::Segmentation;
-use seamline_ecs::results::{Boundary, PatchReport};
-use seamline_mesh::{Findings, Format, Mesh};
+use seamline_ecs::results::{Boundary, Changes, PatchReport, RefinedMesh};
+use seamline_mesh::{Findings, Format, Markings, Mesh};
 use serde::Serialize;
 use serde_json::{Map, Value, json};
+
+use crate::load::LoadedMarkings;
 
 /// The form of the report: counted up when a key changes its meaning or goes, not when one is added.
 pub const REPORT_SCHEMA_VERSION: u32 = 1;
@@ -25,6 +27,8 @@ pub struct JobFacts<'a> {
     pub format: Format,
     /// Its length in bytes.
     pub bytes_len: u64,
+    /// What another tool has marked on the mesh.
+    pub markings: Option<&'a LoadedMarkings>,
     /// The settings in force, every default written out.
     pub settings: &'a toml::Table,
     /// The version of the program.
@@ -43,6 +47,10 @@ struct Report<'a> {
     stages: Vec<Value>,
     patches: &'a [PatchReport],
     boundaries: &'a [Boundary],
+    #[serde(skip_serializing_if = "Option::is_none")]
+    changes: Option<&'a Changes>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    refined: Option<&'a RefinedMesh>,
     seconds: Map<String, Value>,
 }
 
@@ -62,6 +70,16 @@ struct Input<'a> {
     triangles: usize,
     vertices: usize,
     units: &'static str,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    markings: Option<Marked<'a>>,
+}
+
+#[derive(Serialize)]
+struct Marked<'a> {
+    path: String,
+    blake3: &'a str,
+    what: &'static str,
+    count: usize,
 }
 
 /// The report on one mesh, as it stands in `report.json`. Keys are always in the same order. It borrows what
@@ -86,13 +104,29 @@ pub fn report<'a>(
             triangles: mesh.triangles.len(),
             vertices: mesh.positions().len(),
             units: "as in the file",
+            markings: about.markings.map(marked),
         },
         settings: about.settings,
         findings: &segmentation.findings,
         stages: stages(segmentation),
         patches: &segmentation.patches,
         boundaries: &segmentation.boundaries,
+        changes: segmentation.changes.as_ref(),
+        refined: segmentation.refined.as_ref(),
         seconds: seconds(segmentation, about.read_seconds),
+    }
+}
+
+fn marked(given: &LoadedMarkings) -> Marked<'_> {
+    let (what, count) = match &*given.markings {
+        Markings::Labels(labels) => ("labels", labels.len()),
+        Markings::Edges(edges) => ("edges", edges.len()),
+    };
+    Marked {
+        path: given.path.display().to_string(),
+        blake3: &given.hash,
+        what,
+        count,
     }
 }
 

@@ -43,6 +43,7 @@ impl Home {
 
     fn facts(&self, read_seconds: f64) -> JobFacts<'_> {
         JobFacts {
+            markings: None,
             path: Path::new("inbox/part.obj"),
             hash: &self.loaded.hash,
             format: self.loaded.format,

@@ -28,6 +28,7 @@ fn search<'a>(root: &'a Path, recursive: bool, patterns: &'a [Patterns; 2]) -> S
         recursive,
         include,
         exclude,
+        markings: false,
     }
 }
 

@@ -18,6 +18,10 @@ use crate::include;
 pub struct RuleTable {
     /// Patterns of the files it holds for, of the same form as `include`: `["castings/**", "*_scan.ply"]`.
     pub files: Vec<String>,
+    /// `segment`, or `rectify`: each mesh comes with labels or edges of another tool, `part.stl` with `part.seg` or
+    /// `part.edges.txt`, whose boundaries are closed and cleaned. With `hard-edges.strong_deg` set it needs none. Empty:
+    /// as `kind` of `[pipeline]` says.
+    pub pipeline: String,
     /// The set of defaults; empty: that of `[pipeline]`.
     pub profile: String,
     /// The plugin that gives each curvature sample a cluster; empty: that of `[pipeline]`.
@@ -36,6 +40,7 @@ impl StepSettings for RuleTable {
     fn defaults(_: Profile) -> Self {
         Self {
             files: Vec::new(),
+            pipeline: String::new(),
             profile: String::new(),
             classifier: PluginChoice::DEFAULT,
             rectifier: PluginChoice::DEFAULT,
@@ -48,6 +53,11 @@ impl StepSettings for RuleTable {
             !self.files.is_empty() && include::Patterns::new(&self.files).is_ok(),
             "files",
             "one pattern at least, as in `files = [\"castings/**\"]`",
+        )?;
+        OutOfRange::unless(
+            ["", "segment", "rectify"].contains(&self.pipeline.as_str()),
+            "pipeline",
+            "`segment` or `rectify`",
         )
     }
 }

@@ -1,20 +1,24 @@
 //! Files that have held still are entered; those that went away are crossed out.
 
 use std::collections::BTreeMap;
-use std::time::Instant;
+use std::path::Path;
+use std::time::{Duration, Instant};
 
 use tracing::info;
 
 use super::Open;
 use crate::config::After;
 use crate::daemon::WatchError;
-use crate::daemon::job::{Failure, Job, Waiting};
+use crate::daemon::job::{Failure, Job, Waiting, stamp_word};
 use crate::daemon::lookout::Ready;
 use crate::ledger::{Arrival, Row, TakenIn};
+use crate::pairs::{Complete, markings_in};
 use crate::shown;
+use crate::tracker::{FileFact, ReadyFile};
 
 impl Open {
     pub(super) fn take_in(&mut self, ready: Vec<Ready>) -> Result<(), WatchError> {
+        let ready = self.pair(ready);
         let mut by_settings: BTreeMap<String, Vec<Ready>> = BTreeMap::new();
         for ready in ready {
             let setup = self.with.setup.for_file(&ready.file.path);
@@ -27,8 +31,57 @@ impl Open {
         Ok(())
     }
 
+    /// Halves of pairs wait for each other; everything else goes on.
+    fn pair(&mut self, ready: Vec<Ready>) -> Vec<Ready> {
+        let setup = &self.with.setup;
+        if !setup.has_pairs() {
+            return ready;
+        }
+        let (halves, mut ready): (Vec<Ready>, Vec<Ready>) = ready
+            .into_iter()
+            .filter(|file| {
+                let is_markings = markings_in(&file.file.path).is_some();
+                !is_markings || setup.is_of_pair(&file.file.path)
+            })
+            .partition(|file| setup.is_of_pair(&file.file.path));
+        let lookout = &self.with.lookout;
+        let nothing_comes = self.with.options.once && lookout.is_settled();
+        let max_wait = |path: &Path| {
+            let watched = setup.config.watched_with(path);
+            watched.map_or(Duration::ZERO, |watched| watched.max_wait)
+        };
+        let complete = self.pairs.step(
+            Instant::now(),
+            halves.into_iter().map(|half| half.file).collect(),
+            &|file| lookout.holds(file),
+            &max_wait,
+            nothing_comes,
+        );
+        ready.extend(complete.into_iter().map(|complete| {
+            let (file, markings) = match complete {
+                Complete::Pair { mesh, markings } => (mesh, Some(markings)),
+                Complete::Lone(half) => (half, None),
+            };
+            let watched = setup.config.watched_with(&file.path);
+            let relative = watched.and_then(|w| file.path.strip_prefix(&w.root).ok());
+            Ready {
+                relative: relative.unwrap_or(&file.path).to_owned(),
+                lone: markings.is_none(),
+                markings: markings.map(|ReadyFile { path, stamp, .. }| FileFact { path, stamp }),
+                file,
+            }
+        }));
+        ready
+    }
+
     fn take_in_under(&mut self, settings: &str, ready: Vec<Ready>) -> Result<(), WatchError> {
-        let stamps: Vec<_> = ready.iter().map(|ready| ready.file.stamp.word()).collect();
+        let stamps: Vec<_> = ready
+            .iter()
+            .map(|ready| {
+                let markings = ready.markings.as_ref().map(|markings| markings.stamp);
+                stamp_word(ready.file.stamp, markings)
+            })
+            .collect();
         let arrivals: Vec<_> = ready
             .iter()
             .zip(&stamps)
@@ -50,6 +103,8 @@ impl Open {
                 path: ready.file.path,
                 relative: ready.relative,
                 stamp: ready.file.stamp,
+                markings: ready.markings,
+                lone: ready.lone,
                 overdue: ready.file.overdue,
                 since: Instant::now(),
                 not_before: None,

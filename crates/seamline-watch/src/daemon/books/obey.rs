@@ -85,13 +85,14 @@ impl Open {
         self.with
             .health
             .clear(&Trouble::NotWritable(output.clone()));
-        self.with.lookout.retarget(config);
         self.with.events.retarget(&config.watch);
         self.with.crew.change_to(&setup);
         self.backlog
             .retain(|job| config.watched_with(&job.path).is_some());
         info!("the configuration was read anew and holds from the next job on");
-        self.with.setup = Arc::new(setup);
+        let setup = Arc::new(setup);
+        self.with.lookout.retarget(&setup.config, setup.has_pairs());
+        self.with.setup = setup;
         self.asked = Asked::default();
     }
 }

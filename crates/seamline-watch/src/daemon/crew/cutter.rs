@@ -46,10 +46,12 @@ impl Kept {
 
     fn cut(&mut self, mesh: &LoadedMesh) -> Result<Segmentation, seamline_ecs::StageError> {
         let Self { worker, pool, .. } = self;
+        let given = mesh.markings.as_ref();
+        let markings = given.map(|given| given.markings.clone());
         let mesh = mesh.mesh.clone();
         match pool {
-            Some(pool) => pool.install(|| worker.segment(mesh)),
-            None => worker.segment(mesh),
+            Some(pool) => pool.install(|| worker.run(mesh, markings)),
+            None => worker.run(mesh, markings),
         }
     }
 }
@@ -72,7 +74,7 @@ pub(super) fn cut_all(
         }
         let said = job.span.clone();
         let _said = said.enter();
-        begin(shared, &job, &mesh.hash, &progress);
+        begin(shared, &job, &mesh.content, &progress);
         let result = cut_one(&mut kept, &progress, &job, &mesh);
         if !end(shared, &job) {
             // This job was given up, and another cutter has this one's place.
@@ -96,7 +98,7 @@ pub(super) fn cut_all(
                 cut.send(done).is_ok()
             }
             Err(failure) => {
-                let failure = failure.of(mesh.hash);
+                let failure = failure.of(mesh.content);
                 outcome.send(Outcome::Failed { job, failure }).is_ok()
             }
         };

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use crossbeam_channel::{Receiver, Sender};
+use seamline_mesh::Wanted;
 use tracing::warn;
 
 use super::Shared;
@@ -13,8 +14,12 @@ use super::writer::result_of;
 use crate::config::After;
 use crate::daemon::job::{Failure, Job, Loaded, Outcome, Remedy};
 use crate::ledger::{JobId, Known, Reader};
-use crate::load::{FileBytes, LoadError, LoadedMesh, mesh_of, read_file, read_head, weld_share};
+use crate::load::{
+    FileBytes, LoadError, LoadedMesh, content_of_pair, markings_of, mesh_of, read_file, read_head,
+    weld_share,
+};
 use crate::memory::{Pass, START_BYTES, TooLarge, bytes_for_mesh, estimate};
+use crate::pairs::{markings_in, markings_of as markings_beside, meshes_of};
 use crate::retry::may_pass;
 use crate::shown;
 
@@ -44,7 +49,10 @@ fn read(shared: &Shared, ledger: &Reader, job: Job) -> Result<Box<Loaded>, Box<O
         return Err(Box::new(Outcome::Dropped { job }));
     }
     let instead = |outcome| Err(Box::new(outcome));
-    if let Some(failure) = taken_by_another_root(ledger, &job).or_else(|| too_long(&job)) {
+    let refused_unread = taken_by_another_root(ledger, &job)
+        .or_else(|| too_long(&job))
+        .or_else(|| lone(&job));
+    if let Some(failure) = refused_unread {
         return instead(Outcome::Failed { job, failure });
     }
     let mut pass = match admit(shared, &job) {
@@ -58,16 +66,23 @@ fn read(shared: &Shared, ledger: &Reader, job: Job) -> Result<Box<Loaded>, Box<O
         Err(error) => return instead(refused(job, error)),
     };
     shared.metrics.read_bytes(bytes.bytes.len() as u64);
-    if let Some(other) = claim(shared, &job, &bytes.hash) {
+    let markings = match read_markings(&job) {
+        Ok(markings) => markings,
+        Err(outcome) => return instead(outcome(job)),
+    };
+    let content = match &markings {
+        Some(markings) => content_of_pair(&bytes.hash, &markings.hash),
+        None => bytes.hash.clone(),
+    };
+    if let Some(other) = claim(shared, &job, &content) {
         return instead(Outcome::Behind { job, other });
     }
-    match ledger.known(&bytes.hash, &job.setup.settings_hash, &job.file.path) {
+    match ledger.known(&content, &job.setup.settings_hash, &job.file.path) {
         Ok(Some(Known::Done {
             holder,
             path,
             result,
         })) if holder != job.file.id && serves(&job, &path, &result) => {
-            let content = bytes.hash;
             return instead(Outcome::Same {
                 job,
                 content,
@@ -76,7 +91,7 @@ fn read(shared: &Shared, ledger: &Reader, job: Job) -> Result<Box<Loaded>, Box<O
             });
         }
         Ok(Some(Known::Bad(fault))) => {
-            let content = Some(bytes.hash);
+            let content = Some(content);
             let remedy = Remedy::None;
             let failure = Failure {
                 fault,
@@ -89,7 +104,7 @@ fn read(shared: &Shared, ledger: &Reader, job: Job) -> Result<Box<Loaded>, Box<O
         // To cut the same bytes twice costs time and nothing else.
         Err(error) => warn!("{error}; {}", error.hint()),
     }
-    let parsed = parse(shared, &job, bytes, &mut pass);
+    let parsed = parse(shared, &job, bytes, markings, content, &mut pass);
     shared.metrics.stage_took("read", started.elapsed());
     match parsed {
         Ok(mesh) => Ok(Box::new(Loaded { job, mesh, pass })),
@@ -135,19 +150,34 @@ fn parse(
     shared: &Shared,
     job: &Job,
     bytes: FileBytes,
+    markings: Option<FileBytes>,
+    content: String,
     pass: &mut Pass,
 ) -> Result<LoadedMesh, Failure> {
-    let content = bytes.hash.clone();
     let share = weld_share(job.setup.pipeline.settings_in_force());
     let mesh = guarded("read", || mesh_of(bytes, &job.file.path, share))
         .map_err(|failure| failure.of(content.clone()))?;
-    let mesh = mesh.map_err(|error| {
-        let mut failure = failure_of(&error);
+    let mut mesh = mesh.map_err(|error| {
+        let mut failure = failure_of(&error).of(content.clone());
         if error.is_truncated() && !job.file.overdue {
             failure.remedy = Remedy::Again;
         }
         failure
     })?;
+    if let (Some(bytes), Some(file)) = (markings, &job.file.markings) {
+        let wanted = markings_in(&file.path).unwrap_or(Wanted::Labels(None));
+        let read = guarded("read", || {
+            markings_of(bytes, &file.path, wanted, &mesh.mesh)
+        })
+        .map_err(|failure| failure.of(content.clone()))?;
+        mesh.markings = Some(read.map_err(|error| {
+            let name = file.path.file_name().unwrap_or_default().display();
+            let mut failure = failure_of(&error).of(content.clone());
+            failure.fault.message = format!("{name}: {}", failure.fault.message);
+            failure
+        })?);
+        mesh.content.clone_from(&content);
+    }
     let triangles = mesh.mesh.triangles.len() as u64;
     let most = job.setup.config.limits.max_triangles;
     if triangles > most {
@@ -178,7 +208,10 @@ fn refused(job: Job, error: LoadError) -> Outcome {
     match &error {
         LoadError::Changed => Outcome::Changed { job },
         LoadError::Io(cause) if cause.kind() == io::ErrorKind::NotFound => Outcome::Gone { job },
-        LoadError::Io(_) | LoadError::NotAFile | LoadError::Mesh { .. } => {
+        LoadError::Io(_)
+        | LoadError::NotAFile
+        | LoadError::Mesh { .. }
+        | LoadError::Markings { .. } => {
             let failure = failure_of(&error);
             Outcome::Failed { job, failure }
         }
@@ -196,8 +229,44 @@ fn failure_of(error: &LoadError) -> Failure {
     failure.of(error.hash().map(str::to_owned))
 }
 
+/// The bytes of the markings of a job, if it has any.
+fn read_markings(job: &Job) -> Result<Option<FileBytes>, Box<dyn FnOnce(Job) -> Outcome>> {
+    let Some(file) = &job.file.markings else {
+        return Ok(None);
+    };
+    match read_file(&file.path) {
+        Ok(bytes) if bytes.stamp == file.stamp => Ok(Some(bytes)),
+        Ok(_) => Err(Box::new(|job| Outcome::Changed { job })),
+        Err(error) => Err(Box::new(|job| refused(job, error))),
+    }
+}
+
+/// Half of a pair whose other half has not come.
+fn lone(job: &Job) -> Option<Failure> {
+    let path = &job.file.path;
+    if !job.file.lone {
+        return None;
+    }
+    let name = |path: &Path| path.file_name().unwrap_or_default().display().to_string();
+    let (message, others) = match markings_in(path) {
+        None => (
+            "has no labels and no edges beside it",
+            markings_beside(path).map(|p| name(&p)).join(" or "),
+        ),
+        Some(_) => (
+            "has no mesh beside it",
+            meshes_of(path).map(|p| name(&p)).join(" or "),
+        ),
+    };
+    let hint = format!("put {others} into the same folder, then drop this again");
+    Some(Failure::new("read", message, hint))
+}
+
 fn too_long(job: &Job) -> Option<Failure> {
-    let (size, most) = (job.file.stamp.size, job.setup.config.limits.max_file_bytes);
+    let markings = job.file.markings.as_ref();
+    let longer = markings.map_or(0, |markings| markings.stamp.size);
+    let size = job.file.stamp.size.max(longer);
+    let most = job.setup.config.limits.max_file_bytes;
     (size > most).then(|| {
         Failure::new(
             "read",

@@ -13,9 +13,10 @@ use crate::VERSION;
 use crate::config::After;
 use crate::daemon::job::{Failure, Job, Outcome, Settle};
 use crate::outputs::{TEMPORARY_END, TEMPORARY_START};
+use crate::pairs::beside;
 use crate::quarantine::{Reason, put_aside, reason_beside};
 use crate::relocate::move_aside;
-use crate::tracker::Stamp;
+use crate::tracker::{FileFact, Stamp};
 
 pub(super) fn settle_all(shared: &Shared, to_settle: &Receiver<Settle>, outcome: &Sender<Outcome>) {
     for Settle { job, failure } in to_settle {
@@ -50,6 +51,7 @@ fn settle(job: &Job, failure: Option<&Failure>) -> io::Result<Option<PathBuf>> {
             move_aside(path, &path.with_file_name(name))?
         }
     };
+    settle_markings(job, failure.is_some(), &place)?;
     if !is_ours(job, &place) {
         // Something new came between the look and the move: it goes back, and is a job of its own.
         move_aside(&place, path)?;
@@ -62,6 +64,20 @@ fn settle(job: &Job, failure: Option<&Failure>) -> io::Result<Option<PathBuf>> {
         return fs::remove_file(&place).map(|()| Some(PathBuf::new()));
     }
     Ok(Some(place))
+}
+
+/// Markings go where their mesh has gone, under its name.
+fn settle_markings(job: &Job, failed: bool, mesh: &Path) -> io::Result<()> {
+    let Some(FileFact { path, stamp }) = &job.file.markings else {
+        return Ok(());
+    };
+    if !fs::metadata(path).is_ok_and(|found| stamp.is_moved(&Stamp::of(&found))) {
+        return Ok(());
+    }
+    if !failed && job.after == After::Delete {
+        return fs::remove_file(path);
+    }
+    move_aside(path, &beside(mesh, path)).map(|_| ())
 }
 
 /// Is this what was read? If not, something new came in its place, which is a job of its own and must not be

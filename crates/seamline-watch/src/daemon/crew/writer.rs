@@ -45,7 +45,7 @@ fn write(shared: &Shared, cut: Cut) -> Outcome {
             return Outcome::Written {
                 result: result_of(&job),
                 patches: segmentation.patches.len(),
-                content: mesh.hash,
+                content: mesh.content,
                 job,
             };
         }
@@ -56,7 +56,7 @@ fn write(shared: &Shared, cut: Cut) -> Outcome {
         },
         Err(panicked) => panicked,
     };
-    let failure = failure.of(mesh.hash);
+    let failure = failure.of(mesh.content);
     Outcome::Failed { job, failure }
 }
 
@@ -130,6 +130,7 @@ fn write_once(cut: &Cut) -> Result<(), OutputError> {
         hash: &mesh.hash,
         format: mesh.format,
         bytes_len: mesh.bytes_len,
+        markings: mesh.markings.as_ref(),
         settings: job.setup.pipeline.settings_in_force(),
         program_version: VERSION,
         read_seconds: mesh.took.as_secs_f64(),

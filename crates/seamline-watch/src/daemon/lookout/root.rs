@@ -19,6 +19,8 @@ use crate::tracker::{Facts, FileFact, ReadyFile, StabilityTracker};
 
 pub(super) struct Root {
     watched: Watched,
+    /// Are markings of meshes looked for as well?
+    markings: bool,
     pub tracker: StabilityTracker,
     /// When the folder is to be listed as a whole; nothing if it is away.
     pub next_listing: Option<Instant>,
@@ -34,8 +36,9 @@ pub(super) struct Root {
 }
 
 impl Root {
-    pub(super) fn new(watched: Watched) -> Self {
+    pub(super) fn new(watched: Watched, markings: bool) -> Self {
         Self {
+            markings,
             tracker: StabilityTracker::new(watched.stable_for, watched.max_wait),
             was_mounted: is_mount_point(&watched.root).unwrap_or(false),
             watched,
@@ -47,7 +50,8 @@ impl Root {
         }
     }
 
-    pub(super) fn with(mut self, watched: Watched) -> Self {
+    pub(super) fn with(mut self, watched: Watched, markings: bool) -> Self {
+        self.markings = markings;
         self.tracker.set_waits(watched.stable_for, watched.max_wait);
         self.watched = watched;
         self
@@ -188,6 +192,7 @@ impl Root {
             recursive: self.watched.recursive,
             include: &self.watched.include,
             exclude: &self.watched.exclude,
+            markings: self.markings,
         }
     }
 
@@ -201,6 +206,8 @@ impl Root {
                     .strip_prefix(root)
                     .unwrap_or(&file.path)
                     .to_owned(),
+                markings: None,
+                lone: false,
                 file,
             })
             .collect()

@@ -1,0 +1,92 @@
+//! `seamline rectify`: close and clean the boundaries that another tool has found.
+
+use std::path::Path;
+use std::sync::Arc;
+
+use anyhow::Result;
+use seamline_ecs::Worker;
+use seamline_mesh::Wanted;
+use seamline_watch::{load, load_markings, weld_share};
+
+use crate::args::RectifyArgs;
+use crate::outcome::{Outcome, WrongUse, say_failure};
+use crate::results::{Failure, Results};
+use crate::say::tell_as_it_comes;
+use crate::settings::pipeline_of_args;
+
+/// Rectifies what is given for one mesh.
+pub fn run(args: &RectifyArgs) -> Result<Outcome> {
+    let pipeline = Arc::new(pipeline_of_args(&args.pipeline, &said(args)?)?);
+    let results = Results::new(&args.results, args.said, Arc::clone(&pipeline))?;
+    if args.said.verbose {
+        tell_as_it_comes();
+    }
+    let share = weld_share(pipeline.settings_in_force());
+    let path = &args.mesh;
+    let failed = |of: &Path, Failure { reason, hint }: Failure| {
+        say_failure(of, &reason, &hint);
+        Ok(Outcome::SomeFailed)
+    };
+    let mut loaded = match load(path, share) {
+        Ok(loaded) => loaded,
+        Err(error) => return failed(path, error.into()),
+    };
+    if let Some((file, wanted)) = given(args) {
+        match load_markings(file, wanted, &loaded.mesh) {
+            Ok(markings) => loaded.markings = Some(markings),
+            Err(error) => return failed(file, error.into()),
+        }
+    }
+    let markings = loaded
+        .markings
+        .as_ref()
+        .map(|given| Arc::clone(&given.markings));
+    let done = Worker::new(pipeline)
+        .run(Arc::clone(&loaded.mesh), markings)
+        .map_err(Failure::from)
+        .and_then(|rectified| {
+            let place = results.write(path, &loaded, &rectified)?;
+            results.tell(path, &place, &loaded, &rectified)
+        });
+    match done {
+        Ok(()) => Ok(Outcome::Done),
+        Err(failure) => failed(path, failure),
+    }
+}
+
+/// The file of markings, and what is looked for in it; nothing where hard edges are.
+fn given(args: &RectifyArgs) -> Option<(&Path, Wanted<'_>)> {
+    let labels = args.what.labels.as_deref().map(|file| {
+        let by = args.labels_by.as_deref();
+        (file, Wanted::Labels(by))
+    });
+    labels.or_else(|| Some((args.what.edges.as_deref()?, Wanted::Edges)))
+}
+
+/// The settings the arguments stand for.
+fn said(args: &RectifyArgs) -> Result<Vec<(&'static str, String)>, WrongUse> {
+    let mut said = vec![("pipeline.kind", "rectify".to_owned())];
+    if args.refine {
+        said.push(("refine.enabled", "true".to_owned()));
+    }
+    if let Some(angles) = &args.what.sharp_deg {
+        let (weak, strong) = angles.split_once(':').unwrap_or((angles, angles));
+        for (key, angle) in [
+            ("hard-edges.weak_deg", weak),
+            ("hard-edges.strong_deg", strong),
+        ] {
+            let degrees = angle.trim().parse::<f64>().ok();
+            let degrees = degrees.filter(|deg| (0.0..180.0).contains(deg) && *deg > 0.0);
+            let degrees = degrees.ok_or_else(|| {
+                WrongUse(format!(
+                    "--sharp-deg {angles}: wants an angle above 0 and below 180 degrees, or two as 15:40"
+                ))
+            })?;
+            said.push((key, degrees.to_string()));
+        }
+    } else {
+        said.push(("hard-edges.strong_deg", "0".to_owned()));
+        said.push(("hard-edges.weak_deg", "0".to_owned()));
+    }
+    Ok(said)
+}

@@ -1,0 +1,228 @@
+//! `rectify`: boundaries that another tool has found.
+
+use std::fs;
+
+use serde_json::Value;
+
+use crate::home::Home;
+
+/// A cube of unit side with one label a side; its faces are squares.
+const CUBE: &str = "\
+v 0 0 0
+v 1 0 0
+v 1 1 0
+v 0 1 0
+v 0 0 1
+v 1 0 1
+v 1 1 1
+v 0 1 1
+";
+const SIDES: [&str; 6] = [
+    "f 4 3 2 1\n",
+    "f 5 6 7 8\n",
+    "f 1 2 6 5\n",
+    "f 2 3 7 6\n",
+    "f 3 4 8 7\n",
+    "f 4 1 5 8\n",
+];
+
+fn cube(before_each: impl Fn(usize) -> String) -> String {
+    let sides = SIDES.iter().enumerate();
+    let sides: String = sides.map(|(i, side)| before_each(i) + side).collect();
+    CUBE.to_owned() + &sides
+}
+
+fn with_cube() -> Home {
+    let home = Home::new();
+    home.put("cube.obj", cube(|_| String::new()));
+    home
+}
+
+fn labels(home: &Home, name: &str) -> String {
+    let place = home.at(&format!("{name}.seamline/labels.seg"));
+    let text = fs::read_to_string(place).expect("labels are there");
+    text.lines().collect::<Vec<_>>().join(" ")
+}
+
+fn report(home: &Home) -> Value {
+    let text = fs::read_to_string(home.at("cube.obj.seamline/report.json")).expect("a report");
+    serde_json::from_str(&text).expect("JSON")
+}
+
+#[test]
+fn hard_edges_of_a_cube_make_six_patches() {
+    let home = with_cube();
+    home.run("rectify cube.obj --sharp-deg 40").ended(0);
+    assert_eq!(labels(&home, "cube.obj"), "0 1 2 3 4 5");
+    let report = report(&home);
+    assert_eq!(report["settings"]["hard-edges"]["strong_deg"], 40.0);
+    assert_eq!(report["changes"]["edges"]["kept"], 12);
+    assert!(report["input"].get("markings").is_none());
+}
+
+#[test]
+fn labels_come_as_text_as_names_as_colours_and_as_a_selection() {
+    let home = with_cube();
+    home.put("six.seg", "9\n8\n7\n6\n5\n-4\n");
+    home.run("rectify cube.obj --labels six.seg").ended(0);
+    assert_eq!(labels(&home, "cube.obj"), "0 1 2 3 4 5");
+
+    home.put("named.obj", cube(|i| format!("usemtl side{}\n", i / 2)));
+    home.run("rectify named.obj --labels named.obj").ended(0);
+    // Bottom and top have one name and do not touch: they are two patches.
+    assert_eq!(labels(&home, "named.obj"), "0 1 2 2 3 3");
+    home.run("rectify named.obj --labels named.obj --labels-by group")
+        .ended(0);
+    assert_eq!(labels(&home, "named.obj"), "0 0 0 0 0 0");
+
+    home.run("rectify cube.obj --sharp-deg 40").ended(0);
+    fs::copy(
+        home.at("cube.obj.seamline/patches.ply"),
+        home.at("patches.ply"),
+    )
+    .expect("the PLY of the results");
+    for by in ["", " --labels-by colour"] {
+        home.run(&format!("rectify cube.obj --labels patches.ply{by}"))
+            .ended(0);
+        assert_eq!(labels(&home, "cube.obj"), "0 1 2 3 4 5", "{by}");
+    }
+
+    home.put("cube.selection.txt", "\n1 3\n\n");
+    home.run("rectify cube.obj --labels cube.selection.txt")
+        .ended(0);
+    assert_eq!(labels(&home, "cube.obj"), "0 1 0 1 0 0");
+}
+
+#[test]
+fn edges_come_as_lines_of_an_obj_and_as_a_selection() {
+    let home = with_cube();
+    let lines = "l 1 2 3 4 1\nl 5 6 7 8 5\nl 1 5\nl 2 6\nl 3 7\nl 4 8\n";
+    home.put("lines.obj", lines);
+    home.put("with_lines.obj", cube(|_| String::new()) + lines);
+    let pairs = "0 1 1 2 2 3 3 0 4 5 5 6 6 7 7 4 0 4 1 5 2 6 3 7";
+    home.put("cube.selection.txt", format!("\n\n{pairs}\n"));
+    for line in [
+        "rectify cube.obj --edges lines.obj",
+        "rectify cube.obj --edges with_lines.obj",
+        "rectify cube.obj --edges cube.selection.txt",
+    ] {
+        home.run(line).ended(0);
+        assert_eq!(labels(&home, "cube.obj"), "0 1 2 3 4 5", "{line}");
+    }
+    home.run("rectify with_lines.obj --edges with_lines.obj")
+        .ended(0);
+    assert_eq!(labels(&home, "with_lines.obj"), "0 1 2 3 4 5");
+}
+
+#[test]
+fn what_does_not_fit_the_mesh_is_one_line_that_names_file_place_and_remedy() {
+    let home = with_cube();
+    home.put("many.seg", "1\n".repeat(12));
+    home.put("odd.edges.txt", "0 1\n0 6\n");
+    for (what, said) in [
+        (
+            "--labels many.seg",
+            "error: many.seg: 12 labels for 6 faces; the mesh has 6 faces, which make 12 triangles",
+        ),
+        (
+            "--edges odd.edges.txt",
+            "error: odd.edges.txt: line 2: vertices 0 and 6 are not joined by an edge of the mesh; ",
+        ),
+        (
+            "--edges no.txt",
+            "error: no.txt: cannot be read: No such file or directory",
+        ),
+    ] {
+        let ran = home.run(&format!("rectify cube.obj {what}")).ended(1);
+        assert_eq!(ran.err.lines().count(), 1, "{}", ran.err);
+        assert!(ran.err.starts_with(said), "{}", ran.err);
+        assert!(!home.at("cube.obj.seamline").exists());
+    }
+}
+
+#[test]
+fn without_something_to_rectify_or_with_two_things_nothing_is_done() {
+    let home = with_cube();
+    home.run("rectify cube.obj").ended(2);
+    home.run("rectify cube.obj --sharp-deg 40 --labels six.seg")
+        .ended(2);
+    for angles in ["0", "x", "40:180", "50:40"] {
+        let ran = home
+            .run(&format!("rectify cube.obj --sharp-deg {angles}"))
+            .ended(2);
+        assert_eq!(ran.err.lines().count(), 1, "{}", ran.err);
+    }
+    assert!(!home.at("cube.obj.seamline").exists());
+}
+
+/// A square sheet of four by four, with a contour from its middle that goes to one border only.
+fn sheet() -> String {
+    let mut text = String::new();
+    for i in 0..25 {
+        text += &format!("v {} {} 0\n", i % 5, i / 5);
+    }
+    for i in (0..20).filter(|i| i % 5 < 4) {
+        text += &format!("f {} {} {} {}\n", i + 1, i + 2, i + 7, i + 6);
+    }
+    text
+}
+
+#[test]
+fn an_edge_that_is_missing_among_those_given_is_added_and_told() {
+    let home = Home::new();
+    home.put("sheet.obj", sheet());
+    home.put(
+        "seam.edges.txt",
+        "2 7\n7 12 # the next is missing\n\n22 17\n",
+    );
+    home.run("rectify sheet.obj --edges seam.edges.txt --set contour-tracking.doubt_given=false")
+        .ended(0);
+    assert_eq!(
+        labels(&home, "sheet.obj"),
+        "0 0 1 1 0 0 1 1 0 0 1 1 0 0 1 1"
+    );
+    let text = fs::read_to_string(home.at("sheet.obj.seamline/report.json")).unwrap();
+    let report: Value = serde_json::from_str(&text).unwrap();
+    assert_eq!(report["changes"]["edges"]["given"], 3);
+    assert_eq!(report["changes"]["edges"]["added"], 1);
+    assert_eq!(report["input"]["markings"]["what"], "edges");
+    let curves = fs::read_to_string(home.at("sheet.obj.seamline/boundaries.obj")).unwrap();
+    let groups: Vec<&str> = curves
+        .lines()
+        .filter(|line| line.starts_with('g'))
+        .collect();
+    assert_eq!(groups, ["g patch_0_patch_1 old", "g patch_0_patch_1 new"]);
+}
+
+#[test]
+fn a_gap_is_closed_or_left_open_as_is_asked_for() {
+    let home = Home::new();
+    home.put("sheet.obj", sheet());
+    home.put("half.edges.txt", "2 7\n7 12\n");
+    let run = |settings: &str| {
+        let line =
+            "rectify sheet.obj --edges half.edges.txt --set contour-tracking.doubt_given=false";
+        let ran = home.run(&format!("{line}{settings}")).ended(0);
+        let text = fs::read_to_string(home.at("sheet.obj.seamline/report.json")).unwrap();
+        let changes = serde_json::from_str::<Value>(&text).unwrap()["changes"].clone();
+        let of = |key: &str| changes["edges"][key].as_u64().unwrap();
+        let left = changes["open_ends_left"].as_u64().unwrap();
+        (of("added"), of("removed"), of("creases"), left, ran.err)
+    };
+    let (added, removed, creases, left, _) = run("");
+    assert_eq!((added, removed, creases, left), (2, 0, 0, 0));
+    let (added, removed, creases, left, _) = run(" --set contour-tracking.open_ends=bridge");
+    assert_eq!((added, removed, creases, left), (2, 0, 0, 0));
+    for limits in [
+        " --set contour-tracking.open_ends=leave",
+        " --set contour-tracking.max_gap_share=0.3",
+        " --set contour-tracking.open_ends=bridge --set contour-tracking.max_gap_share=0.3",
+    ] {
+        let (added, removed, creases, left, _) = run(limits);
+        assert_eq!((added, removed, creases, left), (0, 2, 0, 1), "{limits}");
+        let keep = format!("{limits} --set contour-tracking.dangling=keep");
+        let (added, removed, creases, left, said) = run(&keep);
+        assert_eq!((added, removed, creases, left), (0, 0, 2, 1), "{limits}");
+        assert!(said.contains("2 edges inside a patch"), "{said}");
+    }
+}

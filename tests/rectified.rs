@@ -1,0 +1,75 @@
+//! Labels that are given: left alone where they are right, mended where they are rough.
+
+use std::sync::Arc;
+
+use seamline_ecs::Worker;
+use seamline_mesh::{Markings, Mesh, Topology, shapes, weld};
+use seamline_tests::score::agreement;
+use seamline_tests::{pipeline, same_partition};
+
+/// A smooth cube, its six flats, twelve rounded edges and eight corners.
+fn cube() -> (Arc<Mesh>, Vec<u32>) {
+    let cube = shapes::smooth_cube(0.2, 4, 6);
+    let truth = cube.patches.clone();
+    (Arc::new(weld(cube.polygons(), 0.0)), truth)
+}
+
+fn rectified(mesh: &Arc<Mesh>, labels: &[u32], settings: &[&str]) -> Vec<u32> {
+    let settings: Vec<&str> = [&["pipeline.kind=rectify"], settings].concat();
+    let given = Markings::Labels(labels.to_vec());
+    Worker::new(pipeline(&settings))
+        .run(Arc::clone(mesh), Some(Arc::new(given)))
+        .expect("it is rectified")
+        .face_patches
+}
+
+/// Every third face beside a boundary goes over to the other side.
+fn roughened(mesh: &Mesh, truth: &[u32]) -> Vec<u32> {
+    let topology = Topology::build(mesh.positions().len(), mesh.triangles.clone());
+    let mut labels = truth.to_vec();
+    let pairs = (0..topology.edge_faces.len()).filter_map(|edge| topology.face_pair(edge));
+    let face = |triangle: u32| mesh.face_of_triangle[triangle as usize] as usize;
+    let parted = pairs.filter(|pair| truth[face(pair[0])] != truth[face(pair[1])]);
+    for [a, b] in parted.step_by(3) {
+        labels[face(a)] = truth[face(b)];
+    }
+    labels
+}
+
+#[test]
+fn right_labels_stay_as_they_are() {
+    let (mesh, truth) = cube();
+    assert!(same_partition(&rectified(&mesh, &truth, &[]), &truth));
+}
+
+#[test]
+fn rough_labels_of_a_smooth_cube_are_mended_alike_on_any_number_of_threads() {
+    let (mesh, truth) = cube();
+    let rough = roughened(&mesh, &truth);
+    let of_triangles = |labels: &[u32]| -> Vec<u32> {
+        let faces = mesh.face_of_triangle.iter();
+        faces.map(|&face| labels[face as usize]).collect()
+    };
+    let f1 =
+        |labels: &[u32]| agreement(&mesh, &of_triangles(&truth), &of_triangles(labels)).boundary_f1;
+    let one = rectified(&mesh, &rough, &["pipeline.threads=1"]);
+    let four = rectified(&mesh, &rough, &["pipeline.threads=4"]);
+    assert_eq!(one, four);
+    let (before, after) = (f1(&rough), f1(&one));
+    assert!(before < 0.7, "{before}");
+    assert!(after > 0.9, "{before} becomes {after}");
+}
+
+#[test]
+fn labels_of_one_mesh_do_not_serve_the_next() {
+    let (mesh, truth) = cube();
+    let mut worker = Worker::new(pipeline(&["pipeline.kind=rectify"]));
+    let given = Arc::new(Markings::Labels(truth.clone()));
+    let first = worker.run(Arc::clone(&mesh), Some(given));
+    assert!(same_partition(
+        &first.expect("it is rectified").face_patches,
+        &truth
+    ));
+    let nothing = worker.run(mesh, None).expect_err("nothing is given");
+    assert_eq!(nothing.message, "nothing is given to be rectified");
+}

@@ -10,7 +10,7 @@ pub(crate) const MOST_IN_RING: usize = 60;
 /// Least cosine (18 degrees) between the normals of a disc and of its seed, most pieces in a disc, and by
 /// what the next disc is smaller: on dense meshes rings turn too little to tell one surface from another.
 const DISC_COS: f64 = 0.95;
-const MOST_IN_DISC: usize = 4000;
+const MOST_IN_DISC: usize = 16000;
 pub(crate) const DISC_SHRINKS: usize = 4;
 /// Most neighbourhoods of three pieces tried for one seed.
 const MOST_TRIPLES: usize = 12;

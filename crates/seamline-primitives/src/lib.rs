@@ -282,8 +282,10 @@ fn climb(ground: Ground, ladder: [f64; 3]) -> (Pieces, Regions) {
         let flat = FLATNESS * tolerance;
         let fewest = PLANE_VERTICES[rung];
         pieces = recut(ground, flat, fewest, pieces, &mut regions);
+        for piece in accept_planes(ground.seen(&pieces), &mut regions, rung == 0, tolerance) {
+            pieces.certain[piece as usize] = false;
+        }
         let view = ground.seen(&pieces);
-        accept_planes(view, &mut regions, tolerance);
         step(view, ground.topology, &mut regions, rung, tolerance);
         absorb::absorb(view, &mut regions, tolerance);
         if exact_share(view, &regions) < HARDLY_ANYTHING {
@@ -325,8 +327,10 @@ fn is_done(pieces: &Pieces, regions: &Regions) -> bool {
     !smooth.any(|link| link.pieces.into_iter().all(free))
 }
 
-/// Accepts the pieces that are planes whatever lies beside them.
-fn accept_planes(view: View, regions: &mut Regions, tolerance: f64) {
+/// Accepts the pieces that are planes whatever lies beside them, and gives those that are none after all: their
+/// vertices do not lie in a plane `exactly`.
+fn accept_planes(view: View, regions: &mut Regions, exactly: bool, tolerance: f64) -> Vec<u32> {
+    let mut bent = Vec::new();
     for piece in 0..view.pieces.count() as u32 {
         if view.pieces.certain[piece as usize] && regions.owner[piece as usize] == NONE {
             let plane = Surface {
@@ -336,9 +340,16 @@ fn accept_planes(view: View, regions: &mut Regions, tolerance: f64) {
                 a: 0.0,
                 b: 0.0,
             };
-            regions.accept(view.weigh(plane, 1.0, vec![piece], tolerance));
+            // A dense curved surface has flat pieces of many vertices, too: they only come near their planes.
+            let found = view.weigh(plane, 1.0, vec![piece], tolerance);
+            if found.exact || !exactly {
+                regions.accept(found);
+            } else {
+                bent.push(piece);
+            }
         }
     }
+    bent
 }
 
 /// One rung of the ladder of tolerances.

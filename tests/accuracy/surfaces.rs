@@ -21,8 +21,8 @@ pub fn print(cuts: &[Cut]) {
     ] {
         println!(
             "\n### Surfaces told: {heading}\n\n\
-            | surface | type right / patches | share | sizes within 1e-4 / type right | concave or convex right / \
-            type right |\n|---|---|---|---|---|"
+            | surface | type right / patches | share | told free form | another type | sizes within 1e-4 / type right \
+            | concave or convex right / type right |\n|---|---|---|---|---|---|---|"
         );
         let told: Vec<_> = cuts.iter().flat_map(|cut| told(cut, exact_only)).collect();
         for kind in TYPES {
@@ -36,6 +36,7 @@ pub fn print(cuts: &[Cut]) {
 struct Told<'a> {
     kind: &'a str,
     type_right: bool,
+    free_form: bool,
     /// `None` for planes, which have no size, and where the type is wrong.
     sizes_right: Option<bool>,
     /// The same.
@@ -61,6 +62,7 @@ impl<'a> Told<'a> {
         Self {
             kind: &patch.kind,
             type_right,
+            free_form: surface.shape == SurfaceShape::FreeForm,
             sizes_right: sizes.map(|pairs| pairs.iter().all(near)),
             side_right: side.map(|concave| surface.concave == Some(concave)),
         }
@@ -103,6 +105,8 @@ fn row<'a>(name: &str, told: impl Iterator<Item = &'a Told<'a>>) {
     }
     let types = told.iter().filter(|told| told.type_right).count();
     let share = digits(types as f64 / told.len() as f64);
+    let free_forms = told.iter().filter(|told| told.free_form).count();
+    let others = told.len() - types - free_forms;
     let rest: [fn(&Told) -> Option<bool>; 2] = [|told| told.sizes_right, |told| told.side_right];
     let rest = rest.map(|right| {
         let known: Vec<bool> = told.iter().filter_map(|told| right(told)).collect();
@@ -114,7 +118,7 @@ fn row<'a>(name: &str, told: impl Iterator<Item = &'a Told<'a>>) {
         }
     });
     println!(
-        "| {name} | {} | {share} | {} |",
+        "| {name} | {} | {share} | {free_forms} | {others} | {} |",
         of(types, told.len()),
         rest.join(" | ")
     );

@@ -6,7 +6,7 @@ PARTS = {}
 def part(uniform=True, turn=False, offset=0.0, scale=1.0):
     """Registers a part function.
 
-    uniform: can gmsh mesh it in reasonable time; turn: an arbitrary rotation; offset: of the centre, in diagonals;
+    uniform: is it meshed by gmsh too; turn: an arbitrary rotation; offset: of the centre, in diagonals;
     scale: of its size.
     """
     def register(function):

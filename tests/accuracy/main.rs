@@ -4,7 +4,7 @@
 //! profile `cad` with no setting touched, and with noise by `lavoue2005` too. FOLDER has `NAME-VARIANT.stl` with `.seg`
 //! and `.json` beside it, VARIANT one of coarse, fine and uniform; without it, the bench beside the project's folder.
 //! `--seconds` adds the ten meshes that took most time. Exit status: 0, also where the bench is absent and there is
-//! nothing to tell; 2 if the arguments are wrong.
+//! nothing to tell; 2 if the arguments are wrong or FOLDER has no meshes.
 //!
 //! Every figure is made as the bench's `score.py` makes it, and agrees with it to rounding.
 
@@ -49,6 +49,10 @@ fn main() -> ExitCode {
     };
 
     let models = models(&folder);
+    if models.is_empty() {
+        eprintln!("{} has no NAME-VARIANT.stl", folder.display());
+        return ExitCode::from(2);
+    }
     let mut worker = Worker::new(pipeline(&["pipeline.profile=cad"]));
     let cuts: Vec<_> = models
         .iter()

@@ -98,7 +98,8 @@ def adjacency(p, pair, ends, labels, owner, faces, patches):
     for key, edges in sorted(rows.items()):
         length = sum(edge[0] for edge in edges)
         known = [(edge[0], np.nanmean(edge[1])) for edge in edges if np.isfinite(edge[1]).any()]
-        row = {"patches": list(key), "length": rounded(length, 6), "smooth": None, "smooth_share": None, "angle_min": None, "angle_max": None}
+        row = {"patches": list(key), "length": rounded(length, 6), "smooth": None, "smooth_share": None,
+               "angle_min": None, "angle_max": None}
         if known:
             share = sum(l for l, angle in known if angle <= 2) / sum(l for l, _ in known)
             values = np.concatenate([edge[1] for edge in edges])

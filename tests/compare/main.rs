@@ -9,7 +9,6 @@
 //! two differ, this ends with what differs.
 
 mod leave_out;
-mod models;
 mod row;
 mod score_py;
 mod tables;

@@ -6,10 +6,10 @@ use std::rc::Rc;
 use std::sync::Arc;
 
 use seamline_ecs::{Segmentation, Worker};
+use seamline_tests::models::{Model, VARIANTS, models};
 use seamline_tests::score::{Agreement, agreement};
 use seamline_tests::{bench, pipeline};
 
-use crate::models::{Model, VARIANTS, models};
 use crate::score_py::ScorePy;
 
 /// The models, and the rows there are already: tables have some in common.

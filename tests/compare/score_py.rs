@@ -5,12 +5,11 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
+use seamline_tests::models::Model;
 use seamline_tests::run;
 use seamline_tests::score::Agreement;
 use serde_json::Value;
 use tempfile::TempDir;
-
-use crate::models::Model;
 
 /// Both add up the same areas and lengths, in another order.
 const ROUNDING: f64 = 1e-6;

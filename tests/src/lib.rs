@@ -2,6 +2,7 @@
 //! meshes where it is present.
 
 pub mod daemon;
+pub mod models;
 pub mod samples;
 pub mod score;
 

@@ -1,6 +1,6 @@
 //! How well a segmentation agrees with the truth, by area and by boundary length.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use glam::DVec3;
 use seamline_mesh::{Mesh, Topology};
@@ -18,19 +18,26 @@ pub struct Agreement {
 
 /// Compares a labelling with the truth, one label a triangle each.
 pub fn agreement(mesh: &Mesh, truth: &[u32], found: &[u32]) -> Agreement {
+    let partners = partners(mesh, truth, found);
+    let exact = partners.values().filter(|partner| partner.exact).count();
     Agreement {
         ari: adjusted_rand_index(mesh, truth, found),
         boundary_f1: boundary_f1(mesh, truth, found),
-        exact: exact(mesh, truth, found),
+        exact: exact as f64 / partners.len() as f64,
     }
 }
 
-fn area(mesh: &Mesh, corners: &[u32; 3]) -> f64 {
-    let [a, b, c] = corners.map(|v| mesh.positions()[v as usize]);
-    (b - a).cross(c - a).length() / 2.0
+/// The found patch a true one has most area in common with.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Partner {
+    /// Its label.
+    pub found: u32,
+    /// Is the area in common .95 of the area of both, or more?
+    pub exact: bool,
 }
 
-fn exact(mesh: &Mesh, truth: &[u32], found: &[u32]) -> f64 {
+/// The partner of each true patch, by its label.
+pub fn partners(mesh: &Mesh, truth: &[u32], found: &[u32]) -> BTreeMap<u32, Partner> {
     let mut both: BTreeMap<(u32, u32), f64> = BTreeMap::new();
     let (mut of_truth, mut of_found) = (BTreeMap::new(), BTreeMap::new());
     for (corners, (&t, &f)) in mesh.triangles.iter().zip(truth.iter().zip(found)) {
@@ -39,11 +46,57 @@ fn exact(mesh: &Mesh, truth: &[u32], found: &[u32]) -> f64 {
         *of_truth.entry(t).or_insert(0.0) += area;
         *of_found.entry(f).or_insert(0.0) += area;
     }
-    // No two patches can have so much in common with the same one.
-    let is_exact = |&(&(t, f), &common): &(&(u32, u32), &f64)| {
-        common >= 0.95 * (of_truth[&t] + of_found[&f] - common)
-    };
-    both.iter().filter(is_exact).count() as f64 / of_truth.len() as f64
+    let mut partners: BTreeMap<u32, (Partner, f64)> = BTreeMap::new();
+    for ((t, found), common) in both {
+        // No two patches can have so much in common with the same one, so that the scorer's matching of one to one
+        // has nothing to decide here.
+        let exact = common >= 0.95 * (of_truth[&t] + of_found[&found] - common);
+        let most = partners.get(&t).map_or(-1.0, |&(_, most)| most);
+        if common > most {
+            partners.insert(t, (Partner { found, exact }, common));
+        }
+    }
+    let told = partners.into_iter().map(|(t, (partner, _))| (t, partner));
+    told.collect()
+}
+
+/// Share of the length of tangent boundaries that is found as boundary: those no crease betrays. `tangent` has the pairs
+/// of true patches that meet without an edge, lower label first. `None` if there are none.
+pub fn tangent_recall(
+    mesh: &Mesh,
+    truth: &[u32],
+    found: &[u32],
+    tangent: &BTreeSet<[u32; 2]>,
+) -> Option<f64> {
+    if tangent.is_empty() {
+        return None;
+    }
+    let [mut there, mut recalled] = [0.0; 2];
+    for ([left, right], length) in inner_edges(mesh) {
+        let mut patches = [left, right].map(|face| truth[face as usize]);
+        patches.sort_unstable();
+        if tangent.contains(&patches) {
+            there += length;
+            let parts = found[left as usize] != found[right as usize];
+            recalled += if parts { length } else { 0.0 };
+        }
+    }
+    Some(if there > 0.0 { recalled / there } else { 1.0 })
+}
+
+/// The two faces of each edge that has two, and its length.
+fn inner_edges(mesh: &Mesh) -> Vec<([u32; 2], f64)> {
+    let topology = Topology::build(mesh.positions().len(), mesh.triangles.clone());
+    let at = |v: u32| -> DVec3 { mesh.positions()[v as usize] };
+    let edges = topology.edge_vertices.iter().enumerate();
+    edges
+        .filter_map(|(edge, &[a, b])| Some((topology.face_pair(edge)?, at(a).distance(at(b)))))
+        .collect()
+}
+
+fn area(mesh: &Mesh, corners: &[u32; 3]) -> f64 {
+    let [a, b, c] = corners.map(|v| mesh.positions()[v as usize]);
+    (b - a).cross(c - a).length() / 2.0
 }
 
 fn adjusted_rand_index(mesh: &Mesh, truth: &[u32], found: &[u32]) -> f64 {
@@ -70,15 +123,9 @@ fn adjusted_rand_index(mesh: &Mesh, truth: &[u32], found: &[u32]) -> f64 {
 }
 
 fn boundary_f1(mesh: &Mesh, truth: &[u32], found: &[u32]) -> f64 {
-    let topology = Topology::build(mesh.positions().len(), mesh.triangles.clone());
-    let at = |v: u32| -> DVec3 { mesh.positions()[v as usize] };
     let [mut both, mut in_truth, mut in_found] = [0.0; 3];
-    for (edge, [a, b]) in topology.edge_vertices.iter().enumerate() {
-        let Some([left, right]) = topology.face_pair(edge) else {
-            continue;
-        };
+    for ([left, right], length) in inner_edges(mesh) {
         let parts = |labels: &[u32]| labels[left as usize] != labels[right as usize];
-        let length = at(*a).distance(at(*b));
         in_truth += if parts(truth) { length } else { 0.0 };
         in_found += if parts(found) { length } else { 0.0 };
         both += if parts(truth) && parts(found) {
@@ -122,5 +169,16 @@ mod tests {
             .for_each(|label| *label = 0);
         let four_of_six = agreement(&mesh, &truth, &joined);
         assert!((four_of_six.exact - 4.0 / 6.0).abs() < 1e-12);
+        let partners = partners(&mesh, &truth, &joined);
+        assert_eq!([1, 2].map(|t| partners[&t].found), [0, 2]);
+        assert_eq!([1, 2].map(|t| partners[&t].exact), [false, true]);
+
+        // Patches 0 to 3 go round, 0 and 2 do not touch, and all edges have one length.
+        let recall = |tangent: &[[u32; 2]]| {
+            tangent_recall(&mesh, &truth, &joined, &tangent.iter().copied().collect())
+        };
+        assert_eq!(recall(&[[0, 1], [1, 2]]), Some(0.5));
+        assert_eq!(recall(&[[0, 2]]), Some(1.0));
+        assert_eq!(recall(&[]), None);
     }
 }

@@ -1,4 +1,4 @@
-//! The models with their truth.
+//! CAD meshes whose patches are known: a folder of `NAME-VARIANT.stl`, each with its truth in a `.seg` beside it.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -9,12 +9,15 @@ use seamline_mesh::{Mesh, read, weld};
 /// The tessellations there are, and what stands for each in the name of a file.
 pub const VARIANTS: [&str; 3] = ["coarse", "fine", "uniform"];
 
+/// One mesh and its patches.
 pub struct Model {
     /// The name of its file, without ending: `gear-fine`.
     pub name: String,
     /// Which of [`VARIANTS`] it is.
     pub variant: usize,
+    /// Welded; its triangles are those of the file, in their order.
     pub mesh: Arc<Mesh>,
+    /// The label of each triangle.
     pub truth: Vec<u32>,
 }
 
@@ -43,7 +46,11 @@ impl Model {
     }
 }
 
-/// All models of a folder, by name.
+/// All models of a folder, by name. Meshes of no known variant are left out.
+///
+/// # Panics
+///
+/// If the folder cannot be listed, or a mesh or its truth does not read.
 pub fn models(folder: &Path) -> Vec<Model> {
     let mut paths: Vec<PathBuf> = fs::read_dir(folder)
         .expect("the folder can be listed")

@@ -1,0 +1,15 @@
+"""The register of parts: what builds each, which meshes it gets, how it lies and how large it is."""
+
+PARTS = {}
+
+
+def part(uniform=True, turn=False, offset=0.0, scale=1.0):
+    """Registers a part function.
+
+    uniform: is it meshed by gmsh too; turn: an arbitrary rotation; offset: of the centre, in diagonals;
+    scale: of its size.
+    """
+    def register(function):
+        PARTS[function.__name__] = (function, uniform, turn, offset, scale)
+        return function
+    return register

@@ -162,7 +162,9 @@ fn a_source_that_cannot_be_moved_is_tried_again() {
 fn a_state_folder_that_is_deleted_ends_the_daemon() {
     let home = Home::new();
     let mut daemon = home.start();
-    daemon.wait_for("the ledger", || home.at("state/ledger.sqlite").exists());
+    // All its threads have opened the ledger by then.
+    home.drop("box.obj", cuboid(1.0));
+    daemon.wait_for("a result", || home.labels("box.obj") == 6);
     fs::remove_dir_all(home.at("state")).unwrap();
     assert_eq!(daemon.wait_exit(Duration::from_secs(20)), Some(1));
     assert!(daemon.log().contains("was taken away"), "{}", daemon.log());

@@ -13,6 +13,11 @@ use crate::whole::whole;
 /// Most vertices the last fit looks at.
 const MOST_POINTS: usize = 2000;
 
+/// Evidence below which a surface is told as the simplest its vertices lie on.
+const LITTLE_EVIDENCE: i64 = 10;
+/// How much farther from a simpler surface vertices may lie.
+const AS_WELL: f64 = 1.2;
+
 /// The surface of each patch, of which the part is given.
 pub(crate) fn surfaces(
     view: View,
@@ -23,11 +28,17 @@ pub(crate) fn surfaces(
 ) -> Vec<Option<Fitted>> {
     let pieces_of = parts.pieces();
     let of_part = |part: u32| match parts.forms.get(part as usize) {
-        Some(Form::Surface(region)) => Some(fitted(view, &regions.all[*region as usize])),
-        Some(Form::Plane) => Some(plane(view, pieces_of[part as usize][0])),
-        Some(Form::Free) => {
-            whole(view, &pieces_of[part as usize], tolerance).map(|found| fitted(view, &found))
+        Some(Form::Surface(region)) => {
+            let region = &regions.all[*region as usize];
+            // What proves little is told as the simplest it may be.
+            let simplest = (!region.strong || region.evidence < LITTLE_EVIDENCE)
+                .then(|| whole(view, regions, &region.pieces, tolerance))
+                .flatten();
+            Some(fitted(view, simplest.as_ref().unwrap_or(region)))
         }
+        Some(Form::Plane) => Some(plane(view, pieces_of[part as usize][0])),
+        Some(Form::Free) => whole(view, regions, &pieces_of[part as usize], tolerance)
+            .map(|found| fitted(view, &found)),
         // Creases cut free forms, and number them beyond the parts.
         None => None,
     };
@@ -61,9 +72,22 @@ fn fitted(view: View, region: &Hypothesis) -> Fitted {
         (squares / points.len() as f64).sqrt()
     };
     let again = refine_patiently(region.surface, &few, 0.0).map(|fit| fit.surface);
-    let surface = again
+    let mut surface = again
         .filter(|surface| rms(surface) <= rms(&region.surface))
         .unwrap_or(region.surface);
+    // A cone that a cylinder explains as well is one.
+    if surface.kind == Kind::Cone {
+        let straight = Surface {
+            kind: Kind::Cylinder,
+            b: 0.0,
+            ..surface
+        };
+        let explains = |s: &Surface| rms(s) <= view.precision.max(AS_WELL * rms(&surface));
+        surface = refine_patiently(straight, &few, 0.0)
+            .map(|fit| fit.surface)
+            .filter(explains)
+            .unwrap_or(surface);
+    }
     let residual = rms(&surface);
     Fitted {
         surface: surface.with_positive_radii(),

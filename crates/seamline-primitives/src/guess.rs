@@ -3,6 +3,7 @@
 use glam::DVec3;
 
 use crate::eigen::symmetric;
+use crate::linear::solve;
 use crate::surface::{Kind, Surface};
 
 /// What a guess is made from.
@@ -225,6 +226,48 @@ fn cone(of: &Neighbourhood) -> Option<Surface> {
     })
 }
 
+/// The cone about a given direction that comes nearest to points, cylinders among them: with `r = a + t h` for the
+/// radius at height `h`, `x^2 + y^2` is linear in `x`, `y`, `h`, `h^2` and 1. Asks no normals, which lean to and fro on
+/// strips of triangles.
+pub(crate) fn cone_about(axis: DVec3, points: &[DVec3]) -> Option<Surface> {
+    let (u, v) = axis.any_orthonormal_pair();
+    let centre = mean(points);
+    let size = extent(points);
+    let mut m = [[0.0; 5]; 5];
+    let mut right = [0.0; 5];
+    for &p in points {
+        let p = (p - centre) / size;
+        let (x, y, h) = (p.dot(u), p.dot(v), p.dot(axis));
+        let row = [x, y, h, h * h, 1.0];
+        for i in 0..5 {
+            right[i] += row[i] * (x * x + y * y);
+            for j in 0..=i {
+                m[i][j] += row[i] * row[j];
+            }
+        }
+    }
+    let trace: f64 = (0..5).map(|i| m[i][i]).sum();
+    for (i, row) in m.iter_mut().enumerate() {
+        row[i] += 1e-13 * trace;
+    }
+    let [x, y, h, hh, one] = solve(m, right)?;
+    let (x, y) = (x / 2.0, y / 2.0);
+    let radius = (one + x * x + y * y).max(0.0).sqrt();
+    let slope = if radius > 0.0 {
+        h / (2.0 * radius)
+    } else {
+        hh.max(0.0).sqrt()
+    };
+    let found = Surface {
+        kind: Kind::Cone,
+        point: centre + size * (x * u + y * v),
+        axis,
+        a: size * radius,
+        b: slope.atan(),
+    };
+    (found.point.is_finite() && found.a.is_finite() && found.b.is_finite()).then_some(found)
+}
+
 /// The axis is a line that all normal lines meet: `(c x n) . d + n . m = 0` with its direction `d` and
 /// moment `m`.
 fn torus(of: &Neighbourhood) -> Vec<Surface> {
@@ -265,4 +308,26 @@ fn torus(of: &Neighbourhood) -> Vec<Surface> {
         })
     };
     lines[..2].iter().filter_map(|&line| about(line)).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_cone_is_known_by_its_points_once_its_direction_is() {
+        let axis = DVec3::new(1.0, 2.0, 2.0) / 3.0;
+        let (u, v) = axis.any_orthonormal_pair();
+        let apex = DVec3::new(0.3, -0.2, 0.5);
+        let points: Vec<DVec3> = (0..20)
+            .map(|i| {
+                let (sin, cos) = (0.3 * f64::from(i)).sin_cos();
+                let height = 1.0 + 0.1 * f64::from(i % 3);
+                apex + height * axis + 0.7 * height * (cos * u + sin * v)
+            })
+            .collect();
+        let found = cone_about(axis, &points).expect("there is a cone");
+        assert!((found.b.tan() - 0.7).abs() < 1e-6);
+        assert!(points.iter().all(|&x| found.distance(x).abs() < 1e-7));
+    }
 }

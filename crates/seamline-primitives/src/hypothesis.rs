@@ -1,5 +1,7 @@
 //! Hypotheses: a surface, the pieces that lie on it, and how far they prove it.
 
+use std::collections::HashSet;
+
 use glam::DVec3;
 
 use crate::guess::{Facets, guesses};
@@ -128,6 +130,29 @@ impl View<'_> {
         Facets {
             normals: pick(&self.pieces.normals),
             centroids: pick(&self.pieces.centroids),
+        }
+    }
+
+    /// The mean normals and centroids of each two pieces that are linked: triangles to and fro between two rims lean
+    /// one way and the other, two together neither way.
+    pub fn linked_facets(&self, pieces: &[u32]) -> Facets {
+        let among: HashSet<u32> = pieces.iter().copied().collect();
+        let links = pieces.iter().flat_map(|&p| {
+            let links = self.pieces.smooth_links(p).map(|link| link.pieces);
+            links.filter(move |pair| pair[0] == p)
+        });
+        let pairs: Vec<[u32; 2]> = links.filter(|pair| among.contains(&pair[1])).collect();
+        let mean =
+            |of: &[DVec3], pair: &[u32; 2]| (of[pair[0] as usize] + of[pair[1] as usize]) / 2.0;
+        Facets {
+            normals: pairs
+                .iter()
+                .map(|pair| mean(&self.pieces.normals, pair).normalize_or_zero())
+                .collect(),
+            centroids: pairs
+                .iter()
+                .map(|pair| mean(&self.pieces.centroids, pair))
+                .collect(),
         }
     }
 

@@ -5,16 +5,18 @@
 //!
 //! 1. `pieces`: triangles in one plane become flat pieces; angles above 40 degrees between them are walls that
 //!    no surface crosses. Pieces of many vertices in more than two lines are planes beyond doubt (`certain`).
-//! 2. `search`: round each piece not yet explained, surfaces are fitted to small neighbourhoods (`guess`, `refine`)
-//!    and grown as far as they hold (`hypothesis`).
+//! 2. `search`: round each piece not yet explained (`scout`), surfaces are fitted to neighbourhoods (`around`, `guess`,
+//!    `refine`) and grown as far as they hold (`hypothesis`).
 //! 3. `select`: the best proved goes first. Vertices along one ruling or one circle prove nothing, and a free form
 //!    comes near many surfaces: what is weak must be spoken for by its borders.
 //! 4. The same again with looser tolerances, for kernels that store approximations; small leftovers are taken in
 //!    (`absorb`).
 //! 5. `trust`: a surface on which its vertices lie exactly is believed; one they come near only where it ends
-//!    naturally.
+//!    as surfaces do. What is left is one surface as a whole (`whole`), or none.
 //! 6. `parts`: what no surface explains is united to free forms, and these are cut at their creases (`creases`),
 //!    where the surface itself turns and not the tessellation only (`crease_angles`).
+//! 7. `describe`: each surface is fitted once more to all its vertices, and what was designed equal comes out equal
+//!    (`snap`).
 //!
 //! Nothing here knows how a part lies: results do not change when it is turned, moved or scaled, but for ties.
 //! All lengths inside are in diagonals of the bounding box. Thresholds were chosen on CAD meshes with ground truth;
@@ -70,6 +72,9 @@ const ROUNDING: f64 = 0.29 * f32::EPSILON as f64;
 
 /// Exact share of the area below which no more is looked for: vertices are noisy, or nothing was designed.
 const HARDLY_ANYTHING: f64 = 0.005;
+
+/// Fewest vertices of a piece between walls that is told to be a plane: three always lie in one.
+const LEAST_PLANE: usize = 4;
 
 /// How flat a piece is, as a share of the tolerance.
 const FLATNESS: f64 = 0.3;
@@ -196,14 +201,26 @@ fn patch_points(
     points
 }
 
-/// Share of the area that regions take on which their vertices lie exactly.
+/// Share of the area that regions take on which their vertices lie exactly, or planes between walls.
 fn exact_share(view: View, regions: &Regions) -> f64 {
     let exact = regions.alive().filter(|&r| regions.all[r as usize].exact);
     let exact: f64 = exact
         .map(|r| view.area(&regions.all[r as usize].pieces))
         .sum();
+    let by_itself = |&piece: &u32| {
+        regions.owner[piece as usize] == NONE
+            && view.pieces.vertices.row(piece).len() >= LEAST_PLANE
+            && view.pieces.smooth_links(piece).next().is_none()
+            && view.is_flat(piece, view.precision)
+    };
+    let planes = (0..view.pieces.count() as u32).filter(by_itself);
+    let planes: f64 = planes.map(|p| view.pieces.areas[p as usize]).sum();
     let whole: f64 = view.pieces.areas.iter().sum();
-    if whole > 0.0 { exact / whole } else { 0.0 }
+    if whole > 0.0 {
+        (exact + planes) / whole
+    } else {
+        0.0
+    }
 }
 
 /// Where next to nothing is exact, nothing is said: one patch a connected piece.

@@ -27,14 +27,14 @@ const WIDER: f64 = 4.0;
 pub(crate) const COVERS: usize = 8;
 
 /// What was found about a seed.
-pub(crate) struct Found {
+pub(crate) struct About {
     /// The best hypothesis of each kind that holds the seed.
     pub hypotheses: Vec<Hypothesis>,
     /// Pieces in the midst of discs that are on no surface.
     pub midst: Vec<u32>,
 }
 
-impl Found {
+impl About {
     fn of(best: [Option<Hypothesis>; 4], midst: Vec<u32>) -> Self {
         Self {
             hypotheses: best.into_iter().flatten().collect(),
@@ -65,12 +65,12 @@ impl<'a> Scout<'a> {
     }
 
     /// The best hypothesis of each kind that holds the seed.
-    pub fn hypotheses_of(&mut self, seed: u32, discs: bool) -> Found {
+    pub fn hypotheses_of(&mut self, seed: u32, discs: bool) -> About {
         let mut best: [Option<Hypothesis>; 4] = Default::default();
         let midst = if discs {
             match self.on_discs(seed, &mut best) {
                 Some(midst) => midst,
-                None => return Found::of(best, Vec::new()),
+                None => return About::of(best, Vec::new()),
             }
         } else {
             Vec::new()
@@ -134,7 +134,7 @@ impl<'a> Scout<'a> {
             }
         }
         self.on_what_came_near(seed, &mut best);
-        Found::of(best, midst)
+        About::of(best, midst)
     }
 
     /// A torus looks like a cylinder nearby, and a cone like one too: where a surface only came near, those of more
@@ -217,8 +217,8 @@ impl<'a> Scout<'a> {
             let slot = &mut best[kind as usize - 1];
             if slot.as_ref().is_some_and(|h| {
                 self.view.fits(seed, &fit.surface, h.sign, self.tolerance) && {
-                    let same = around.iter().all(|p| h.pieces.contains(p));
-                    same && h.pieces.len() > around.len()
+                    let larger = h.pieces.len() > around.len() && around.len() <= MOST_IN_RING;
+                    larger && around.iter().all(|p| h.pieces.contains(p))
                 }
             }) {
                 continue;

@@ -5,7 +5,7 @@ use rayon::prelude::*;
 
 use crate::around::Around;
 use crate::hypothesis::{Hypothesis, View};
-use crate::scout::{COVERS, Found, Scout};
+use crate::scout::{About, COVERS, Scout};
 
 /// After so many seeds in vain one more piece about each further one is none: a large free form takes as many
 /// seeds as the root of its pieces.
@@ -56,7 +56,7 @@ pub(crate) fn search(view: View, open: &[bool], rung: usize, tolerance: f64) -> 
         while scouts.len() < batch.len() {
             scouts.push(Scout::new(view, open, rung, tolerance));
         }
-        let about: Vec<Found> = batch
+        let about: Vec<About> = batch
             .par_iter()
             .zip(&mut scouts)
             .with_max_len(1)
@@ -95,7 +95,7 @@ impl State {
         !self.covered[seed as usize] && !neighbours.any(|p| self.failed[p as usize] && alike(p))
     }
 
-    fn note(&mut self, around: &Around, seed: u32, found: &Found) {
+    fn note(&mut self, around: &Around, seed: u32, found: &About) {
         for &piece in &found.midst {
             self.amid_failure[piece as usize] = true;
         }

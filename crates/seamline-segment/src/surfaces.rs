@@ -20,7 +20,7 @@ use crate::grow::{Grown, mean_curvatures};
 #[derive(Resource, Clone, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SurfaceSettings {
-    /// Are surfaces looked for? Curvature must lie on facets. Where surfaces explain a mesh no classifier is
+    /// Are surfaces looked for? Where surfaces explain a mesh no classifier is
     /// asked: so not by default where a classifier other than the default one is chosen.
     pub enabled: bool,
     /// Share of the area that must lie exactly on surfaces for the patches to follow from them; below it
@@ -88,12 +88,18 @@ fn make_rows(In(found): In<Found>, world: &mut World) {
     world.insert_resource(Settled(explains.then_some(found.of_face)));
 }
 
+/// Zero for what arithmetic leaves of it.
+fn round_off(x: f64) -> f64 {
+    if x.abs() < f64::EPSILON { 0.0 } else { x }
+}
+
 /// A surface in the file's unit.
 fn described(fitted: &Fitted, scale: &MeshScale) -> PatchSurface {
     let surface = &fitted.surface;
     let point = |x: DVec3| (x * scale.length + scale.centre).to_array();
-    let axis = surface.axis.to_array();
-    let radius = surface.a * scale.length;
+    let axis = surface.axis.to_array().map(|x| round_off(x));
+    // Of a torus that meets itself the inner part is about the other side of its circle.
+    let radius = surface.a.abs() * scale.length;
     let shape = match surface.kind {
         Kind::Plane => SurfaceShape::Plane {
             point: point(surface.point),
@@ -124,7 +130,7 @@ fn described(fitted: &Fitted, scale: &MeshScale) -> PatchSurface {
     PatchSurface {
         shape,
         concave: (surface.kind != Kind::Plane).then_some(!fitted.convex),
-        residual: Some(fitted.residual * scale.length),
+        residual: Some(round_off(fitted.residual) * scale.length),
         confidence: Some(if fitted.exact { proved } else { proved / 2.0 }),
     }
 }

@@ -198,7 +198,7 @@ fn mesh() -> Arc<Mesh> {
 
 fn whole_pipeline(c: &mut Criterion) {
     let mesh = mesh();
-    let mut worker = Worker::new(pipeline(&[]));
+    let mut worker = Worker::new(pipeline(&["surfaces.enabled=false"]));
     let mut bare = Bare::default();
     let cut = worker.segment(Arc::clone(&mesh)).expect("it is cut");
     assert_eq!(
@@ -222,7 +222,7 @@ fn whole_pipeline(c: &mut Criterion) {
 
 fn curvature_stage(c: &mut Criterion) {
     let mesh = mesh();
-    let mut worker = Worker::new(pipeline(&[]));
+    let mut worker = Worker::new(pipeline(&["surfaces.enabled=false"]));
     let mut bare = Bare::default();
     bare.prepare(&mesh);
 
@@ -248,7 +248,7 @@ fn curvature_stage(c: &mut Criterion) {
 /// the next.
 fn classify_stage(_: &mut Criterion) {
     let mesh = mesh();
-    let mut worker = Worker::new(pipeline(&[]));
+    let mut worker = Worker::new(pipeline(&["surfaces.enabled=false"]));
     let mut bare = Bare::default();
     bare.prepare(&mesh);
     bare.curvature();

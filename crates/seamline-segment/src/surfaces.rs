@@ -97,7 +97,7 @@ fn round_off(x: f64) -> f64 {
 fn described(fitted: &Fitted, scale: &MeshScale) -> PatchSurface {
     let surface = &fitted.surface;
     let point = |x: DVec3| (x * scale.length + scale.centre).to_array();
-    let axis = surface.axis.to_array().map(|x| round_off(x));
+    let axis = surface.axis.to_array().map(round_off);
     // Of a torus that meets itself the inner part is about the other side of its circle.
     let radius = surface.a.abs() * scale.length;
     let shape = match surface.kind {

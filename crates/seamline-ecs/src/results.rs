@@ -233,6 +233,8 @@ pub struct EdgeChanges {
     pub added: usize,
     /// Given, and no boundaries any more.
     pub removed: usize,
+    /// Of those removed, the ones that were never taken: they close nothing and look like no boundary.
+    pub doubted: usize,
     /// Given, and kept inside one patch.
     pub creases: usize,
 }

@@ -23,8 +23,11 @@ pub(crate) fn changes(rows: &LabelledRows, given: Given) -> Changes {
         ..
     } = given;
     let after = boundary(rows.bending.topology, rows.labels);
-    let is_crease = |edge: &u32| contours[*edge as usize] == ContourState::Crease;
-    let creases: Vec<u32> = before.iter().copied().filter(is_crease).collect();
+    let in_state = |state: ContourState| -> Vec<u32> {
+        let is_so = |edge: &u32| contours[*edge as usize] == state;
+        before.iter().copied().filter(is_so).collect()
+    };
+    let creases = in_state(ContourState::Crease);
     let not_among = |edges: &[u32], among: &[u32]| -> Vec<u32> {
         let absent = |edge: &u32| among.binary_search(edge).is_err();
         edges.iter().copied().filter(absent).collect()
@@ -64,6 +67,7 @@ pub(crate) fn changes(rows: &LabelledRows, given: Given) -> Changes {
             kept: after.len() - added.len(),
             added: added.len(),
             removed: gone.len(),
+            doubted: in_state(ContourState::Doubted).len(),
             creases: creases.len(),
         },
         before: measured(before),

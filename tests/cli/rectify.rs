@@ -269,6 +269,67 @@ fn a_line_in_a_flat_is_taken_where_it_parts_something_and_doubted_aloud_where_it
 }
 
 #[test]
+fn without_any_weight_on_votes_what_only_sharp_edges_bound_keeps_its_label() {
+    let home = Home::new();
+    home.put("fold.obj", folded_sheet(90.0));
+    // One face in the middle of the left half bears the label of the right one.
+    let label = |i: usize| u32::from(i % 10 >= 5 || i == 72);
+    let lines: Vec<String> = (0..160).map(|i| format!("{}\n", label(i))).collect();
+    home.put("fold.seg", lines.concat());
+    let ran = home
+        .run("rectify fold.obj --labels fold.seg --set contour-tracking.vote_weight=0")
+        .ended(0);
+    assert!(ran.err.contains(": 2 patches of "), "{}", ran.err);
+}
+
+#[test]
+fn what_contradicts_itself_or_has_no_effect_is_wrong_use() {
+    let home = with_cube();
+    home.put("six.seg", "9\n8\n7\n6\n5\n-4\n");
+    for (line, said) in [
+        (
+            "rectify cube.obj --labels six.seg --labels-by group",
+            "--labels-by group: in six.seg there is nothing to choose from; ",
+        ),
+        (
+            "rectify cube.obj --sharp-deg 40 --labels-by group",
+            "--labels",
+        ),
+        (
+            "rectify cube.obj --sharp-deg 40 --classifier kmeans",
+            "--classifier kmeans: ",
+        ),
+        (
+            "rectify cube.obj --sharp-deg 40 --set hard-edges.weak_deg=20",
+            "--set hard-edges.weak_deg=20: ",
+        ),
+        (
+            "plugins check --stage rectify kmeans",
+            "--stage rectify: kmeans fills classify; ",
+        ),
+        (
+            "plugins check --stage nothing kmeans",
+            "--stage nothing: is none; ",
+        ),
+    ] {
+        let ran = home.run(line).ended(2);
+        assert!(ran.err.contains(said), "{line}: {}", ran.err);
+    }
+    assert!(!home.at("cube.obj.seamline").exists());
+}
+
+#[test]
+fn one_edge_given_of_a_box_is_closed_into_a_loop_and_nothing_is_left() {
+    let home = with_cube();
+    home.put("one.edges.txt", "0 1\n");
+    let ran = home.run("rectify cube.obj --edges one.edges.txt").ended(0);
+    assert!(ran.err.contains("open ends: 2 closed\n"), "{}", ran.err);
+    assert_eq!(report(&home)["changes"]["after"]["open_ends"], 0);
+    let patches = labels(&home, "cube.obj");
+    assert!(patches.contains('1'), "{patches}");
+}
+
+#[test]
 fn an_edge_that_is_missing_among_those_given_is_added_and_told() {
     let home = Home::new();
     home.put("sheet.obj", sheet());
@@ -286,6 +347,9 @@ fn an_edge_that_is_missing_among_those_given_is_added_and_told() {
     let report: Value = serde_json::from_str(&text).unwrap();
     assert_eq!(report["changes"]["edges"]["given"], 3);
     assert_eq!(report["changes"]["edges"]["added"], 1);
+    // The seam goes from border to border.
+    assert_eq!(report["changes"]["before"]["open_ends"], 2);
+    assert_eq!(report["changes"]["after"]["open_ends"], 0);
     assert_eq!(report["input"]["markings"]["what"], "edges");
     let curves = fs::read_to_string(home.at("sheet.obj.seamline/boundaries.obj")).unwrap();
     let groups: Vec<&str> = curves

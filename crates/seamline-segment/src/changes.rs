@@ -3,11 +3,11 @@
 use std::collections::BTreeMap;
 
 use glam::DVec3;
-use seamline_ecs::EndFate;
 use seamline_ecs::components::ContourState;
 use seamline_ecs::results::{BoundaryMeasure, Changes, EdgeChanges, OpenEndReport};
+use seamline_ecs::{EndFate, boundary};
+use seamline_mesh::Topology;
 
-use crate::adopt::boundary;
 use crate::boundaries::chains;
 use crate::export::{Given, LabelledRows};
 
@@ -45,7 +45,7 @@ pub(crate) fn changes(rows: &LabelledRows, given: Given) -> Changes {
             .map(|&edge| topology.edge_vertices[edge as usize])
             .collect();
         let at = |row: u32| rows.bending.positions[row as usize].0;
-        measure(&ends, at, rows.length)
+        measure(topology, &ends, at, rows.length)
     };
     let count = |fate| ends.iter().filter(|end| end.fate == fate).count();
     let mut open_ends: Vec<OpenEndReport> = ends
@@ -85,10 +85,15 @@ pub(crate) fn mesh_edge(rows: &LabelledRows, edge: u32) -> [u32; 2] {
 
 /// Length of some edges together, given by their ends, and how they turn where two of them meet and no more.
 pub(crate) fn measure(
+    topology: &Topology,
     edges: &[[u32; 2]],
     at: impl Fn(u32) -> DVec3,
     unit_length: f64,
 ) -> BoundaryMeasure {
+    let is_closed_by_mesh = |vertex: u32| {
+        let mut around = topology.vertex_edges.row(vertex as usize).iter();
+        around.any(|&edge| topology.face_pair(edge as usize).is_none())
+    };
     let mut leaving: BTreeMap<u32, Vec<DVec3>> = BTreeMap::new();
     let mut length = 0.0;
     for &[from, to] in edges {
@@ -112,8 +117,8 @@ pub(crate) fn measure(
         mean_turn_deg: turns.iter().sum::<f64>() / many,
         sharp_turn_share: sharp as f64 / many,
         open_ends: leaving
-            .values()
-            .filter(|leaving| leaving.len() == 1)
+            .iter()
+            .filter(|(vertex, leaving)| leaving.len() == 1 && !is_closed_by_mesh(**vertex))
             .count(),
     }
 }

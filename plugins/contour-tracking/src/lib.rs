@@ -12,7 +12,7 @@ mod track;
 use schemars::JsonSchema;
 use seamline_ecs::components::{ContourState, FaceLabel};
 use seamline_ecs::settings::{OutOfRange, Profile, StepSettings};
-use seamline_ecs::{EndFate, GivenAs, LabelledMesh, Labels, Rectifier, StepError};
+use seamline_ecs::{EndFate, GivenAs, LabelledMesh, Labels, Rectifier, StepError, boundary};
 use serde::{Deserialize, Serialize};
 
 pub use bridge::bridge;
@@ -203,7 +203,7 @@ impl ContourTrackingSettings {
             GivenAs::Labels => {
                 mark(topology, scores, mesh.sharp, labels, self, &mut states);
                 let unproved = |labels: &[FaceLabel], states: &[ContourState]| {
-                    let boundary = mark::boundary(topology, labels);
+                    let boundary = boundary(topology, labels);
                     stretches(ground, &boundary, self.rough_above_deg, states)
                 };
                 let rough: Vec<u32> = unproved(labels, &states)

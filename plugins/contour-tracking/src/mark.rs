@@ -1,25 +1,13 @@
 //! Correct boundary edges (paper 5.3.1).
 
-use seamline_ecs::LabelledMesh;
 use seamline_ecs::components::{BoundaryScore, ContourState, FaceLabel, SharpEdge};
+use seamline_ecs::{LabelledMesh, boundary};
 use seamline_mesh::{Sets, Topology};
 
 use crate::ContourTrackingSettings;
 
 /// A given edge that turns by more than this is no slip of the hand. Half of what a cylinder of twelve sides turns by.
 const TURNS_DEG: f64 = 15.0;
-
-/// Edges between two labels, rising.
-pub(crate) fn boundary(topology: &Topology, labels: &[FaceLabel]) -> Vec<u32> {
-    let parts = |&edge: &u32| {
-        topology
-            .face_pair(edge as usize)
-            .is_some_and(|[a, b]| labels[a as usize] != labels[b as usize])
-    };
-    (0..topology.edge_faces.len() as u32)
-        .filter(parts)
-        .collect()
-}
 
 /// Writes the state of every edge: correct, kept or off the contours. Only edges between two labels are
 /// looked at.

@@ -2,6 +2,9 @@
 
 use std::fs;
 
+use seamline_mesh::write::write_obj;
+use seamline_mesh::{Topology, shapes, weld};
+use seamline_tests::same_partition;
 use serde_json::Value;
 
 use crate::home::Home;
@@ -168,6 +171,165 @@ fn sheet() -> String {
 }
 
 #[test]
+fn all_boundaries_of_a_smooth_cube_given_as_edges_come_back_as_its_26_patches() {
+    let cube = shapes::smooth_cube(0.2, 4, 6);
+    let mesh = weld(cube.polygons(), 0.0);
+    let topology = Topology::build(mesh.positions().len(), mesh.triangles.clone());
+    let patch = |triangle: u32| cube.patches[mesh.face_of_triangle[triangle as usize] as usize];
+    let between = (0..topology.edge_faces.len()).filter(|&edge| {
+        let faces = topology.face_pair(edge);
+        faces.is_some_and(|[a, b]| patch(a) != patch(b))
+    });
+    let lines: Vec<String> = between
+        .map(|edge| {
+            let [a, b] = topology.edge_vertices[edge];
+            format!("{a} {b}\n")
+        })
+        .collect();
+    let mut obj = Vec::new();
+    write_obj(&mut obj, &mesh.polygons).expect("memory takes every byte");
+    let home = Home::new();
+    home.put("smooth.obj", obj);
+    home.put("smooth.edges.txt", lines.concat());
+    for more in ["", " --set contour-tracking.dangling=keep"] {
+        let ran = home
+            .run(&format!(
+                "rectify smooth.obj --edges smooth.edges.txt{more}"
+            ))
+            .ended(0);
+        assert!(ran.err.contains(": 26 patches of "), "{}", ran.err);
+        assert!(!ran.err.contains("doubted"), "{}", ran.err);
+        let found = home.labels("smooth.obj.seamline");
+        assert!(same_partition(&found, &cube.patches));
+    }
+}
+
+/// A sheet of ten by sixteen, folded by so many degrees along its middle, row upon row.
+fn folded_sheet(degrees: f64) -> String {
+    let mut text = String::new();
+    let (sin, cos) = degrees.to_radians().sin_cos();
+    for row in 0..17 {
+        for x in -5..=5 {
+            let beyond = f64::from(x.max(0));
+            let along = f64::from(x.min(0)) + beyond * cos;
+            text += &format!("v {along} {row} {}\n", beyond * sin);
+        }
+    }
+    for i in (0..16 * 11).filter(|i| i % 11 < 10) {
+        text += &format!("f {} {} {} {}\n", i + 1, i + 2, i + 13, i + 12);
+    }
+    text
+}
+
+/// The edges of the fold from one row to another.
+fn along_the_fold(rows: std::ops::Range<usize>) -> String {
+    rows.map(|row| format!("{} {}\n", row * 11 + 5, row * 11 + 16))
+        .collect()
+}
+
+#[test]
+fn a_crease_that_turns_less_than_a_sharp_edge_stays() {
+    let home = Home::new();
+    home.put("fold.obj", folded_sheet(39.0));
+    for rows in [0..16, 2..14] {
+        home.put("fold.edges.txt", along_the_fold(rows.clone()));
+        let ran = home.run("rectify fold.obj --edges fold.edges.txt").ended(0);
+        assert!(ran.err.contains(": 2 patches of "), "{}", ran.err);
+        let added = 16 - rows.len();
+        let kept = format!("edges: {} kept, {added} added, 0 removed", rows.len());
+        assert!(ran.err.contains(&kept), "{}", ran.err);
+    }
+}
+
+#[test]
+fn a_line_in_a_flat_is_taken_where_it_parts_something_and_doubted_aloud_where_it_ends() {
+    let home = Home::new();
+    home.put("flat.obj", folded_sheet(0.0));
+    home.put("whole.edges.txt", along_the_fold(0..16));
+    let ran = home
+        .run("rectify flat.obj --edges whole.edges.txt")
+        .ended(0);
+    assert!(ran.err.contains(": 2 patches of "), "{}", ran.err);
+
+    home.put("part.edges.txt", along_the_fold(5..9));
+    let ran = home.run("rectify flat.obj --edges part.edges.txt").ended(0);
+    let said = "; 4 edges doubted: contour-tracking.doubt_given=false takes them all";
+    assert!(ran.err.contains(said), "{}", ran.err);
+    let edges = &home.json("flat.obj.seamline/report.json")["changes"]["edges"];
+    assert_eq!(
+        (&edges["removed"], &edges["doubted"]),
+        (&4.into(), &4.into())
+    );
+
+    let ran = home
+        .run("rectify flat.obj --edges part.edges.txt --set contour-tracking.dangling=keep")
+        .ended(0);
+    assert!(ran.err.contains("4 edges inside a patch"), "{}", ran.err);
+    assert!(!ran.err.contains("doubted"), "{}", ran.err);
+}
+
+#[test]
+fn without_any_weight_on_votes_what_only_sharp_edges_bound_keeps_its_label() {
+    let home = Home::new();
+    home.put("fold.obj", folded_sheet(90.0));
+    // One face in the middle of the left half bears the label of the right one.
+    let label = |i: usize| u32::from(i % 10 >= 5 || i == 72);
+    let lines: Vec<String> = (0..160).map(|i| format!("{}\n", label(i))).collect();
+    home.put("fold.seg", lines.concat());
+    let ran = home
+        .run("rectify fold.obj --labels fold.seg --set contour-tracking.vote_weight=0")
+        .ended(0);
+    assert!(ran.err.contains(": 2 patches of "), "{}", ran.err);
+}
+
+#[test]
+fn what_contradicts_itself_or_has_no_effect_is_wrong_use() {
+    let home = with_cube();
+    home.put("six.seg", "9\n8\n7\n6\n5\n-4\n");
+    for (line, said) in [
+        (
+            "rectify cube.obj --labels six.seg --labels-by group",
+            "--labels-by group: in six.seg there is nothing to choose from; ",
+        ),
+        (
+            "rectify cube.obj --sharp-deg 40 --labels-by group",
+            "--labels",
+        ),
+        (
+            "rectify cube.obj --sharp-deg 40 --classifier kmeans",
+            "--classifier kmeans: ",
+        ),
+        (
+            "rectify cube.obj --sharp-deg 40 --set hard-edges.weak_deg=20",
+            "--set hard-edges.weak_deg=20: ",
+        ),
+        (
+            "plugins check --stage rectify kmeans",
+            "--stage rectify: kmeans fills classify; ",
+        ),
+        (
+            "plugins check --stage nothing kmeans",
+            "--stage nothing: is none; ",
+        ),
+    ] {
+        let ran = home.run(line).ended(2);
+        assert!(ran.err.contains(said), "{line}: {}", ran.err);
+    }
+    assert!(!home.at("cube.obj.seamline").exists());
+}
+
+#[test]
+fn one_edge_given_of_a_box_is_closed_into_a_loop_and_nothing_is_left() {
+    let home = with_cube();
+    home.put("one.edges.txt", "0 1\n");
+    let ran = home.run("rectify cube.obj --edges one.edges.txt").ended(0);
+    assert!(ran.err.contains("open ends: 2 closed\n"), "{}", ran.err);
+    assert_eq!(report(&home)["changes"]["after"]["open_ends"], 0);
+    let patches = labels(&home, "cube.obj");
+    assert!(patches.contains('1'), "{patches}");
+}
+
+#[test]
 fn an_edge_that_is_missing_among_those_given_is_added_and_told() {
     let home = Home::new();
     home.put("sheet.obj", sheet());
@@ -185,6 +347,9 @@ fn an_edge_that_is_missing_among_those_given_is_added_and_told() {
     let report: Value = serde_json::from_str(&text).unwrap();
     assert_eq!(report["changes"]["edges"]["given"], 3);
     assert_eq!(report["changes"]["edges"]["added"], 1);
+    // The seam goes from border to border.
+    assert_eq!(report["changes"]["before"]["open_ends"], 2);
+    assert_eq!(report["changes"]["after"]["open_ends"], 0);
     assert_eq!(report["input"]["markings"]["what"], "edges");
     let curves = fs::read_to_string(home.at("sheet.obj.seamline/boundaries.obj")).unwrap();
     let groups: Vec<&str> = curves

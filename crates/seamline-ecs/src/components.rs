@@ -105,6 +105,8 @@ pub enum ContourState {
     Tracked,
     /// Given, but inside one patch: it ends where nothing closes it, and is kept for what it is.
     Crease,
+    /// Given, but not taken: nothing about it looks like a boundary, and it closes nothing.
+    Doubted,
 }
 
 // Samples of curvature: facets, or vertices that are not sharp.

@@ -30,7 +30,7 @@ pub use pipeline::{BuiltinSteps, InstallStep, Pipeline, PipelineKind, PipelineSe
 pub use plugin::{
     Classifier, Clusters, CommandSettings, CurvatureSamples, EndFate, LabelledMesh, Labels,
     MakeSystems, OpenEnd, OpenEnds, PluginChoice, PluginEntry, Rectifier, Registry, SwappableStage,
-    classifier_systems, rectifier_systems,
+    boundary, classifier_systems, rectifier_systems,
 };
 pub use results::Segmentation;
 pub use stage::{Stage, StageSystems, StepError, fallible};

@@ -42,7 +42,7 @@ use crate::stage::{Stage, StepError};
 pub use choice::{CommandSettings, PluginChoice};
 pub use classifier::{Classifier, Clusters, CurvatureSamples, classifier_systems};
 pub use rectifier::{
-    EndFate, LabelledMesh, Labels, OpenEnd, OpenEnds, Rectifier, rectifier_systems,
+    EndFate, LabelledMesh, Labels, OpenEnd, OpenEnds, Rectifier, boundary, rectifier_systems,
 };
 pub use registry::{MakeSystems, OutsideSystems, PluginEntry, Registry};
 

@@ -233,6 +233,8 @@ pub struct EdgeChanges {
     pub added: usize,
     /// Given, and no boundaries any more.
     pub removed: usize,
+    /// Of those removed, the ones that were never taken: they close nothing and look like no boundary.
+    pub doubted: usize,
     /// Given, and kept inside one patch.
     pub creases: usize,
 }
@@ -248,7 +250,7 @@ pub struct BoundaryMeasure {
     pub mean_turn_deg: f64,
     /// Share of these turns that are above 45 degrees.
     pub sharp_turn_share: f64,
-    /// Vertices where they end.
+    /// Vertices where they end, but for borders and non-manifold edges of the mesh: those close them.
     pub open_ends: usize,
 }
 

@@ -4,7 +4,7 @@ use bevy_ecs::prelude::*;
 use seamline_ecs::components::{DihedralAngle, FaceLabel, FaceSample, NONE};
 use seamline_ecs::{
     Column, ColumnMut, Counts, GivenAs, GivenBoundary, InputMarkings, InputMesh, MeshTopology,
-    Stage, StageSystems, StepError, fallible,
+    Stage, StageSystems, StepError, boundary, fallible,
 };
 use seamline_mesh::{Markings, Mesh, Sets, Topology};
 
@@ -110,18 +110,6 @@ pub fn adopt_edges(topology: &Topology, order: &SpatialOrder, pairs: &[[u32; 2]]
     edges.sort_unstable();
     edges.dedup();
     edges
-}
-
-/// Edges between two labels, rising.
-pub(crate) fn boundary(topology: &Topology, labels: &[FaceLabel]) -> Vec<u32> {
-    let parts = |&edge: &u32| {
-        topology
-            .face_pair(edge as usize)
-            .is_some_and(|[a, b]| labels[a as usize] != labels[b as usize])
-    };
-    (0..topology.edge_faces.len() as u32)
-        .filter(parts)
-        .collect()
 }
 
 /// Labels faces alike that hang together without crossing one of the edges, numbered by lowest face.

@@ -3,11 +3,11 @@
 use std::collections::BTreeMap;
 
 use glam::DVec3;
-use seamline_ecs::EndFate;
 use seamline_ecs::components::ContourState;
 use seamline_ecs::results::{BoundaryMeasure, Changes, EdgeChanges, OpenEndReport};
+use seamline_ecs::{EndFate, boundary};
+use seamline_mesh::Topology;
 
-use crate::adopt::boundary;
 use crate::boundaries::chains;
 use crate::export::{Given, LabelledRows};
 
@@ -23,8 +23,11 @@ pub(crate) fn changes(rows: &LabelledRows, given: Given) -> Changes {
         ..
     } = given;
     let after = boundary(rows.bending.topology, rows.labels);
-    let is_crease = |edge: &u32| contours[*edge as usize] == ContourState::Crease;
-    let creases: Vec<u32> = before.iter().copied().filter(is_crease).collect();
+    let in_state = |state: ContourState| -> Vec<u32> {
+        let is_so = |edge: &u32| contours[*edge as usize] == state;
+        before.iter().copied().filter(is_so).collect()
+    };
+    let creases = in_state(ContourState::Crease);
     let not_among = |edges: &[u32], among: &[u32]| -> Vec<u32> {
         let absent = |edge: &u32| among.binary_search(edge).is_err();
         edges.iter().copied().filter(absent).collect()
@@ -42,7 +45,7 @@ pub(crate) fn changes(rows: &LabelledRows, given: Given) -> Changes {
             .map(|&edge| topology.edge_vertices[edge as usize])
             .collect();
         let at = |row: u32| rows.bending.positions[row as usize].0;
-        measure(&ends, at, rows.length)
+        measure(topology, &ends, at, rows.length)
     };
     let count = |fate| ends.iter().filter(|end| end.fate == fate).count();
     let mut open_ends: Vec<OpenEndReport> = ends
@@ -64,6 +67,7 @@ pub(crate) fn changes(rows: &LabelledRows, given: Given) -> Changes {
             kept: after.len() - added.len(),
             added: added.len(),
             removed: gone.len(),
+            doubted: in_state(ContourState::Doubted).len(),
             creases: creases.len(),
         },
         before: measured(before),
@@ -81,10 +85,15 @@ pub(crate) fn mesh_edge(rows: &LabelledRows, edge: u32) -> [u32; 2] {
 
 /// Length of some edges together, given by their ends, and how they turn where two of them meet and no more.
 pub(crate) fn measure(
+    topology: &Topology,
     edges: &[[u32; 2]],
     at: impl Fn(u32) -> DVec3,
     unit_length: f64,
 ) -> BoundaryMeasure {
+    let is_closed_by_mesh = |vertex: u32| {
+        let mut around = topology.vertex_edges.row(vertex as usize).iter();
+        around.any(|&edge| topology.face_pair(edge as usize).is_none())
+    };
     let mut leaving: BTreeMap<u32, Vec<DVec3>> = BTreeMap::new();
     let mut length = 0.0;
     for &[from, to] in edges {
@@ -108,8 +117,8 @@ pub(crate) fn measure(
         mean_turn_deg: turns.iter().sum::<f64>() / many,
         sharp_turn_share: sharp as f64 / many,
         open_ends: leaving
-            .values()
-            .filter(|leaving| leaving.len() == 1)
+            .iter()
+            .filter(|(vertex, leaving)| leaving.len() == 1 && !is_closed_by_mesh(**vertex))
             .count(),
     }
 }

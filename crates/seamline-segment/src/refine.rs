@@ -11,11 +11,9 @@ use glam::DVec3;
 use schemars::JsonSchema;
 use seamline_ecs::components::{FaceLabel, Position, SharpEdge};
 use seamline_ecs::settings::{Profile, StepSettings};
-use seamline_ecs::{Column, ColumnMut, Counts, MeshTopology, Stage};
+use seamline_ecs::{Column, ColumnMut, Counts, MeshTopology, Stage, boundary};
 use seamline_mesh::{EdgeKind, Topology};
 use serde::{Deserialize, Serialize};
-
-use crate::adopt::boundary;
 
 /// The `[refine]` table: boundaries that cut triangles.
 #[derive(Resource, Clone, Debug, Serialize, Deserialize, JsonSchema)]

@@ -60,7 +60,7 @@ pub(crate) fn refined_mesh(
     }
     let all: Vec<[u32; 2]> = curves.values().flatten().copied().collect();
     RefinedMesh {
-        boundary: measure(&all, |v| positions[v as usize], 1.0),
+        boundary: measure(&topology, &all, |v| positions[v as usize], 1.0),
         curves: curves
             .into_iter()
             .map(|(pair, edges)| (pair, chains(&edges)))

@@ -204,9 +204,9 @@ pub enum PluginsCommand {
 
 #[derive(clap::Args, Debug)]
 pub struct CheckPluginArgs {
-    /// The stage a program fills: classify or rectify
-    #[arg(long, value_name = "STAGE", default_value = "classify")]
-    pub stage: String,
+    /// The stage a program fills: classify or rectify [default: classify; of a plugin, its own]
+    #[arg(long, value_name = "STAGE")]
+    pub stage: Option<String>,
     /// The longest a program may take over one mesh, in seconds
     #[arg(long, value_name = "SECONDS", default_value_t = 60.0)]
     pub timeout_s: f64,

@@ -52,7 +52,17 @@ fn choice(args: &CheckPluginArgs, registry: &Registry) -> Result<(SwappableStage
             .filter(|entry| entry.name == name)
             .map(|entry| entry.stage)
             .next();
-        let stage = stage.map_or_else(|| stage_named(&args.stage), Ok)?;
+        let asked = args.stage.as_deref().map(stage_named).transpose()?;
+        if let (Some(stage), Some(asked)) = (stage, asked)
+            && stage != asked
+        {
+            let (stage, asked) = (stage.stage().name(), asked.stage().name());
+            return Err(WrongUse(format!(
+                "--stage {asked}: {name} fills {stage}; name --stage {stage}, or none"
+            ))
+            .into());
+        }
+        let stage = stage.or(asked).unwrap_or(SwappableStage::Classify);
         return Ok((stage, PluginChoice::Named(name.clone())));
     }
     let command = CommandSettings {
@@ -60,7 +70,9 @@ fn choice(args: &CheckPluginArgs, registry: &Registry) -> Result<(SwappableStage
         send: args.send.clone(),
         ..CommandSettings::new(args.what.clone())
     };
-    Ok((stage_named(&args.stage)?, PluginChoice::Command(command)))
+    let stage = args.stage.as_deref().map(stage_named).transpose()?;
+    let stage = stage.unwrap_or(SwappableStage::Classify);
+    Ok((stage, PluginChoice::Command(command)))
 }
 
 fn stage_named(name: &str) -> Result<SwappableStage, WrongUse> {

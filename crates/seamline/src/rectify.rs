@@ -6,7 +6,7 @@ use std::sync::Arc;
 use anyhow::Result;
 use seamline_ecs::Worker;
 use seamline_mesh::Wanted;
-use seamline_watch::{load, load_markings, weld_share};
+use seamline_watch::{load, load_markings, shown, weld_share};
 
 use crate::args::RectifyArgs;
 use crate::outcome::{Outcome, WrongUse, say_failure};
@@ -16,6 +16,7 @@ use crate::settings::pipeline_of_args;
 
 /// Rectifies what is given for one mesh.
 pub fn run(args: &RectifyArgs) -> Result<Outcome> {
+    refuse_without_effect(args)?;
     let pipeline = Arc::new(pipeline_of_args(&args.pipeline, &said(args)?)?);
     let results = Results::new(&args.results, args.said, Arc::clone(&pipeline))?;
     if args.said.verbose {
@@ -61,6 +62,37 @@ fn given(args: &RectifyArgs) -> Option<(&Path, Wanted<'_>)> {
         (file, Wanted::Labels(by))
     });
     labels.or_else(|| Some((args.what.edges.as_deref()?, Wanted::Edges)))
+}
+
+/// Arguments that would be passed over in silence, or that another one overrules.
+fn refuse_without_effect(args: &RectifyArgs) -> Result<(), WrongUse> {
+    if let Some(name) = &args.pipeline.classifier {
+        return Err(WrongUse(format!(
+            "--classifier {name}: nothing is classified where boundaries are given; leave it out"
+        )));
+    }
+    if let Some(by) = &args.labels_by {
+        let Some(file) = &args.what.labels else {
+            return Err(WrongUse(format!(
+                "--labels-by {by}: no labels are given; name their PLY or OBJ with --labels"
+            )));
+        };
+        // Other names say nothing: a PLY is known by its content.
+        let name = file.to_string_lossy().to_lowercase();
+        if name.ends_with(".seg") || name.ends_with(".selection.txt") {
+            return Err(WrongUse(format!(
+                "--labels-by {by}: in {} there is nothing to choose from; leave it out, or name a PLY or an OBJ",
+                shown(file)
+            )));
+        }
+    }
+    let sets_hard_edges = |set: &&String| set.trim_start().starts_with("hard-edges.");
+    if let Some(set) = args.pipeline.set.iter().find(sets_hard_edges) {
+        return Err(WrongUse(format!(
+            "--set {set}: what edges are hard is said by --sharp-deg; name both angles there, as 15:40"
+        )));
+    }
+    Ok(())
 }
 
 /// The settings the arguments stand for.

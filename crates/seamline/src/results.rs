@@ -176,6 +176,10 @@ fn said_of(changes: &Changes) -> String {
         let creases = counted(edges.creases, "edge", "edges");
         said += &format!("; {creases} inside a patch");
     }
+    if edges.doubted > 0 {
+        let doubted = counted(edges.doubted, "edge", "edges");
+        said += &format!("; {doubted} doubted: contour-tracking.doubt_given=false takes them all");
+    }
     said
 }
 

@@ -12,7 +12,7 @@ mod track;
 use schemars::JsonSchema;
 use seamline_ecs::components::{ContourState, FaceLabel};
 use seamline_ecs::settings::{OutOfRange, Profile, StepSettings};
-use seamline_ecs::{EndFate, GivenAs, LabelledMesh, Labels, Rectifier, StepError};
+use seamline_ecs::{EndFate, GivenAs, LabelledMesh, Labels, Rectifier, StepError, boundary};
 use serde::{Deserialize, Serialize};
 
 pub use bridge::bridge;
@@ -44,8 +44,8 @@ pub struct ContourTrackingSettings {
     pub max_gap_share: f64,
     /// What becomes of a piece of contour that ends where nothing closes it, and so encloses no patch.
     pub dangling: DanglingRule,
-    /// Given edges, of which some may be wrong: a run of them between two junctions in which none is correct, by its
-    /// score or its angle, is not taken.
+    /// Given edges, of which some may be wrong: a run of them between two junctions is not taken if it closes nothing
+    /// and none of it is correct by its score or turns by more than 15 degrees.
     pub doubt_given: bool,
     /// Given labels: where their boundary turns by more than this between edges that are not correct it is rough, and
     /// the faces beside it are labelled anew before anything else; else it is kept as it is. The sides of a cylinder of
@@ -143,7 +143,7 @@ impl Rectifier for ContourTrackingSettings {
             },
         };
         let mut of_face = mesh.labels.to_vec();
-        let mut contours = self.marked(mesh, &ground, &mut of_face);
+        let (mut contours, doubted) = self.marked(mesh, &ground, &mut of_face);
         let states = &mut contours;
         let open_ends = match self.open_ends {
             ClosingRule::Bridge => bridge(ground, states),
@@ -151,6 +151,14 @@ impl Rectifier for ContourTrackingSettings {
         };
         let keep = self.dangling == DanglingRule::Keep;
         let patch_count = patches(topology, keep, states, &mut of_face);
+        for edge in doubted.into_iter().map(|edge| edge as usize) {
+            if states[edge] == ContourState::Off {
+                states[edge] = match self.dangling {
+                    DanglingRule::Drop => ContourState::Doubted,
+                    DanglingRule::Keep => ContourState::Crease,
+                };
+            }
+        }
 
         let is_correct = |state: &&ContourState| **state == ContourState::Correct;
         let correct = contours.iter().filter(is_correct).count();
@@ -176,34 +184,26 @@ impl Rectifier for ContourTrackingSettings {
 
 impl ContourTrackingSettings {
     /// The contours to begin with. Labels that were given are made straight where their boundary is rough, and what is
-    /// straight of it is kept.
+    /// straight of it is kept. With them come the edges given that are doubted.
     fn marked(
         &self,
         mesh: &LabelledMesh<'_>,
         ground: &Ground<'_>,
         labels: &mut Vec<FaceLabel>,
-    ) -> Vec<ContourState> {
+    ) -> (Vec<ContourState>, Vec<u32>) {
         let (topology, scores) = (mesh.topology, mesh.scores);
         let mut states = vec![ContourState::Off; scores.len()];
+        let mut doubted = Vec::new();
         match mesh.given_as {
             GivenAs::Edges | GivenAs::HardEdges => {
-                let doubted = self.doubt_given && mesh.given_as == GivenAs::Edges;
-                let given = mesh.given_edges;
-                mark_given(
-                    topology,
-                    scores,
-                    mesh.sharp,
-                    given,
-                    doubted,
-                    self,
-                    &mut states,
-                );
+                let doubt = self.doubt_given && mesh.given_as == GivenAs::Edges;
+                doubted = mark_given(mesh, doubt, self, &mut states);
             }
             GivenAs::Nothing => mark(topology, scores, mesh.sharp, labels, self, &mut states),
             GivenAs::Labels => {
                 mark(topology, scores, mesh.sharp, labels, self, &mut states);
                 let unproved = |labels: &[FaceLabel], states: &[ContourState]| {
-                    let boundary = mark::boundary(topology, labels);
+                    let boundary = boundary(topology, labels);
                     stretches(ground, &boundary, self.rough_above_deg, states)
                 };
                 let rough: Vec<u32> = unproved(labels, &states)
@@ -221,6 +221,6 @@ impl ContourTrackingSettings {
                 }
             }
         }
-        states
+        (states, doubted)
     }
 }

@@ -1,21 +1,13 @@
 //! Correct boundary edges (paper 5.3.1).
 
 use seamline_ecs::components::{BoundaryScore, ContourState, FaceLabel, SharpEdge};
+use seamline_ecs::{LabelledMesh, boundary};
 use seamline_mesh::{Sets, Topology};
 
 use crate::ContourTrackingSettings;
 
-/// Edges between two labels, rising.
-pub(crate) fn boundary(topology: &Topology, labels: &[FaceLabel]) -> Vec<u32> {
-    let parts = |&edge: &u32| {
-        topology
-            .face_pair(edge as usize)
-            .is_some_and(|[a, b]| labels[a as usize] != labels[b as usize])
-    };
-    (0..topology.edge_faces.len() as u32)
-        .filter(parts)
-        .collect()
-}
+/// A given edge that turns by more than this is no slip of the hand. Half of what a cylinder of twelve sides turns by.
+const TURNS_DEG: f64 = 15.0;
 
 /// Writes the state of every edge: correct, kept or off the contours. Only edges between two labels are
 /// looked at.
@@ -41,30 +33,41 @@ pub fn mark(
     }
 }
 
-/// Writes the state of every edge where edges were given: correct or off the contours. Where they are `doubted`, a run
-/// between two junctions in which no edge is correct by its score or its angle is not taken.
+/// Writes the state of every edge where edges were given: correct or off the contours. Where `doubt` is set, a run
+/// between two junctions is not taken, and its edges are given back, if it closes nothing and no edge of it is correct
+/// by its score or turns by more than 15 degrees.
 pub fn mark_given(
-    topology: &Topology,
-    scores: &[BoundaryScore],
-    sharp: &[SharpEdge],
-    given: &[u32],
-    doubted: bool,
+    mesh: &LabelledMesh<'_>,
+    doubt: bool,
     settings: &ContourTrackingSettings,
     states: &mut [ContourState],
-) {
+) -> Vec<u32> {
     states.fill(ContourState::Off);
-    let is_correct =
-        |edge: u32| scores[edge as usize].0 < settings.correct_below_deg || sharp[edge as usize].0;
-    let (run_of, run_count) = runs(topology, given);
-    let mut believed = vec![!doubted; run_count];
+    let given = mesh.given_edges;
+    let speaks_for_itself = |edge: u32| {
+        let faces = mesh.topology.face_pair(edge as usize);
+        // Faces are labelled by what the edges given part, so an edge between two labels is part of a closed contour.
+        let closes = faces.is_some_and(|[a, b]| mesh.labels[a as usize] != mesh.labels[b as usize]);
+        let edge = edge as usize;
+        closes
+            || mesh.scores[edge].0 < settings.correct_below_deg
+            || mesh.sharp[edge].0
+            || mesh.angles[edge].0.abs() > TURNS_DEG.to_radians()
+    };
+    let (run_of, run_count) = runs(mesh.topology, given);
+    let mut believed = vec![!doubt; run_count];
     for (&edge, &run) in given.iter().zip(&run_of) {
-        believed[run as usize] |= is_correct(edge);
+        believed[run as usize] |= speaks_for_itself(edge);
     }
+    let mut doubted = Vec::new();
     for (&edge, &run) in given.iter().zip(&run_of) {
         if believed[run as usize] {
             states[edge as usize] = ContourState::Correct;
+        } else {
+            doubted.push(edge);
         }
     }
+    doubted
 }
 
 /// Keeps every run of boundary edges between two junctions in which no edge is correct.

@@ -71,8 +71,11 @@ fn share_out(pieces: &Pieces, active: &[u32], vote_weight: f64) -> Vec<u32> {
                 });
                 let mut sums = summed(own.chain(beyond));
                 let whole: f64 = sums.iter().map(|(_, sum)| sum).sum();
-                sums.iter_mut()
-                    .for_each(|(_, sum)| *sum /= whole.max(f64::MIN_POSITIVE));
+                // Between sharp edges alone, with no weight on votes, nothing speaks for any label but the piece's own.
+                if whole == 0.0 {
+                    return pieces.votes(piece).to_vec();
+                }
+                sums.iter_mut().for_each(|(_, sum)| *sum /= whole);
                 sums
             })
             .collect();

@@ -26,6 +26,7 @@ pub fn track(ground: Ground<'_>, states: &mut [ContourState]) -> Vec<OpenEnd> {
             length: 0.0,
         })
         .collect();
+    let mut tips: Vec<u32> = ends.iter().map(|end| end.vertex).collect();
     let mut heap = BinaryHeap::new();
     for (walk, end) in ends.iter().enumerate() {
         push_edges_at(&contours, end.vertex, walk, &mut heap);
@@ -42,15 +43,16 @@ pub fn track(ground: Ground<'_>, states: &mut [ContourState]) -> Vec<OpenEnd> {
         }
         walked.edges += 1;
         walked.length += length;
+        let far = ground.topology.far_end(edge, end);
+        tips[walk] = far;
         if contours.add(edge, end) {
             walked.fate = EndFate::Closed;
         } else {
-            let far = ground.topology.far_end(edge, end);
             push_edges_at(&contours, far, walk, &mut heap);
         }
     }
-    for end in &mut ends {
-        if end.fate == EndFate::Left && end.edges == 0 && !contours.is_open(end.vertex) {
+    for (end, tip) in ends.iter_mut().zip(tips) {
+        if end.fate == EndFate::Left && !contours.is_open(tip) {
             end.fate = EndFate::Met;
         }
     }

@@ -102,6 +102,18 @@ impl LabelledMesh<'_> {
     }
 }
 
+/// Edges between two labels, rising.
+pub fn boundary(topology: &Topology, labels: &[FaceLabel]) -> Vec<u32> {
+    let parts = |&edge: &u32| {
+        topology
+            .face_pair(edge as usize)
+            .is_some_and(|[a, b]| labels[a as usize] != labels[b as usize])
+    };
+    (0..topology.edge_faces.len() as u32)
+        .filter(parts)
+        .collect()
+}
+
 #[derive(SystemParam)]
 struct BoundaryColumns<'w, 's> {
     topology: Res<'w, MeshTopology>,

@@ -61,7 +61,7 @@ def finish(name, variant, shape, faces, diagonal, out, raw):
              "brep_volume": body["brep_volume"], "patches": len(patches), "fixed_triangles": fixed, "split_patches": int(split),
              "max_vertex_deviation": max((row.get("max_vertex_deviation", 0.0) for row in patches), default=0.0)}
     types = {kind: sum(row["type"] == kind for row in patches) for kind in (*ANALYTIC, "bspline", "other")}
-    info = {"name": f"{name}-{variant}", "variant": variant, "source": "parametric part (held out)", "stats": stats,
+    info = {"name": f"{name}-{variant}", "variant": variant, "source": "tests/parts", "stats": stats,
             "types": {k: v for k, v in types.items() if v}, "patches": patches,
             "adjacency": adjacency(p, pair[~inner], ends[~inner], labels.of_triangle, owner, faces, patches),
             "problems": labels.problems()}
@@ -103,6 +103,6 @@ def write(stem, points, triangles, labels, info):
     normal = np.cross(p[:, 1] - p[:, 0], p[:, 2] - p[:, 0])
     record["normal"] = normal / np.linalg.norm(normal, axis=1, keepdims=True)
     header = np.array([len(triangles)], "<u4").tobytes()
-    Path(f"{stem}.stl").write_bytes(b"held-out part".ljust(80) + header + record.tobytes())
+    Path(f"{stem}.stl").write_bytes(b"tests/parts".ljust(80) + header + record.tobytes())
     Path(f"{stem}.seg").write_text("\n".join(map(str, labels.tolist())) + "\n")
     Path(f"{stem}.json").write_text(json.dumps(info, indent=1) + "\n")

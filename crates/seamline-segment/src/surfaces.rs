@@ -24,8 +24,8 @@ pub struct SurfaceSettings {
     /// asked: so not by default where a classifier other than the default one is chosen.
     pub enabled: bool,
     /// Share of the area that must lie exactly on surfaces for the patches to follow from them; below it
-    /// (noise, scans, natural shapes) curvature leads. The least of any CAD export measured is .06, a
-    /// loft between two flat ends; scans have 0.
+    /// (noise, scans, natural shapes) curvature leads. The least of the bench is .06, a
+    /// loft between two flat ends; a coil spring of one spline has less, scans have 0.
     pub least_exact_share: f64,
 }
 

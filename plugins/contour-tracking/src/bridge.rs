@@ -28,16 +28,7 @@ struct Bridge {
 /// Cost: for each open end, n log n of the edges nearer than its contour.
 pub fn bridge(ground: Ground<'_>, states: &mut [ContourState]) -> Vec<OpenEnd> {
     let mut contours = Contours::of(ground, states);
-    let mut ends: Vec<OpenEnd> = contours
-        .open_ends()
-        .into_iter()
-        .map(|vertex| OpenEnd {
-            vertex,
-            fate: EndFate::Left,
-            edges: 0,
-            length: 0.0,
-        })
-        .collect();
+    let mut ends = contours.open_ends();
     let mut bridges: Vec<Bridge> = ends
         .iter()
         .enumerate()

@@ -2,6 +2,7 @@
 
 use glam::DVec3;
 use seamline_ecs::components::{BoundaryScore, ContourState, Position};
+use seamline_ecs::{EndFate, OpenEnd};
 use seamline_mesh::{EdgeKind, Topology};
 
 /// What contours run over, and what a step costs there.
@@ -104,10 +105,17 @@ impl<'a> Contours<'a> {
         self.arriving(vertex).is_some()
     }
 
-    /// All open ends, by vertex.
-    pub(crate) fn open_ends(&self) -> Vec<u32> {
+    /// All open ends, by vertex, with nothing done for them yet.
+    pub(crate) fn open_ends(&self) -> Vec<OpenEnd> {
         let vertices = 0..self.degree.len() as u32;
-        vertices.filter(|&v| self.is_open(v)).collect()
+        let open = vertices.filter(|&v| self.is_open(v));
+        open.map(|vertex| OpenEnd {
+            vertex,
+            fate: EndFate::Left,
+            edges: 0,
+            length: 0.0,
+        })
+        .collect()
     }
 
     /// Adds an edge. True if it ends at a contour.

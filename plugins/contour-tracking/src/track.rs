@@ -16,16 +16,7 @@ use crate::contours::{Contours, Ground, Lightest};
 /// for who may run into it.
 pub fn track(ground: Ground<'_>, states: &mut [ContourState]) -> Vec<OpenEnd> {
     let mut contours = Contours::of(ground, states);
-    let mut ends: Vec<OpenEnd> = contours
-        .open_ends()
-        .into_iter()
-        .map(|vertex| OpenEnd {
-            vertex,
-            fate: EndFate::Left,
-            edges: 0,
-            length: 0.0,
-        })
-        .collect();
+    let mut ends = contours.open_ends();
     let mut tips: Vec<u32> = ends.iter().map(|end| end.vertex).collect();
     let mut heap = BinaryHeap::new();
     for (walk, end) in ends.iter().enumerate() {

@@ -1,6 +1,7 @@
 //! Hypotheses: a surface, the pieces that lie on it, and how far they prove it.
 
 use std::collections::HashSet;
+use std::f64::consts::PI;
 
 use glam::DVec3;
 
@@ -54,6 +55,12 @@ impl View<'_> {
         least_cos: f64,
     ) -> bool {
         let normal = self.pieces.normals[piece as usize];
+        let lean = self.pieces.leans[piece as usize];
+        let least_cos = if lean > 0.0 {
+            (least_cos.acos() + lean).min(PI).cos()
+        } else {
+            least_cos
+        };
         let agrees = |x: DVec3| sign * surface.gradient(x).dot(normal) >= least_cos;
         let faces = self.pieces.faces.row(piece);
         let agree = if faces.len() <= 2 {

@@ -18,6 +18,9 @@
 //! 7. `describe`: each surface is fitted once more to all its vertices, and what was designed equal comes out equal
 //!    (`snap`).
 //!
+//! Where nothing is exact, the `noise` of the vertices is estimated and the same is done with it as the precision;
+//! patches then compete for the faces between them (`relax`).
+//!
 //! Nothing here knows how a part lies: results do not change when it is turned, moved or scaled, but for ties.
 //! All lengths inside are in diagonals of the bounding box. Thresholds were chosen on CAD meshes with ground truth;
 //! each says what it is for.
@@ -35,16 +38,19 @@ mod eigen;
 mod guess;
 mod hypothesis;
 mod linear;
+mod noise;
 mod parts;
 mod pieces;
 mod refine;
 mod regions;
+mod relax;
 mod rows;
 mod scout;
 mod search;
 mod select;
 mod snap;
 mod surface;
+mod tiles;
 mod trust;
 mod whole;
 
@@ -56,6 +62,7 @@ pub use surface::{Kind, Surface};
 use hypothesis::{Hypothesis, View};
 use pieces::{NONE, Pieces, Triangles};
 use regions::Regions;
+use relax::{Noisy, Patches};
 use search::search;
 use select::{borders_speak_for, free_part, select};
 
@@ -69,6 +76,13 @@ const PRECISION: f64 = 5e-8;
 
 /// Root mean square of what single precision takes from a coordinate, as a share of it.
 const ROUNDING: f64 = 0.29 * f32::EPSILON as f64;
+
+/// Root mean square distance, in standard deviations of the noise, of vertices that lie on a surface but for noise.
+const EXACT_DEVIATIONS: f64 = 1.5;
+/// How often surfaces are looked for again with less noise, at most.
+const LOOKED_AGAIN: usize = 2;
+/// By how much the noise must have been taken too large for that.
+const MUCH_LESS: f64 = 0.6;
 
 /// Exact share of the area below which no more is looked for: vertices are noisy, or nothing was designed.
 const HARDLY_ANYTHING: f64 = 0.005;
@@ -109,6 +123,9 @@ pub struct Found {
     /// Share of the area that lies exactly on surfaces of sufficient evidence: near 0 where vertices are noisy
     /// or nothing is designed of such surfaces.
     pub exact_share: f64,
+    /// Standard deviation of each coordinate of the vertices from where they were designed; 0 where they are as
+    /// exact as they are stored, and where no noise was made out.
+    pub noise: f64,
 }
 
 /// Finds the patches of a mesh.
@@ -120,13 +137,64 @@ pub struct Found {
 /// precision is coarser far from the origin.
 pub fn find(positions: &[DVec3], topology: &Topology, farthest: f64) -> Found {
     let (centre, diagonal) = frame(positions, topology);
-    let precision = PRECISION.hypot(ROUNDING * farthest / diagonal);
-    let ladder = LADDER.map(|tolerance| tolerance.max(6.0 * precision));
     let scaled: Vec<DVec3> = positions.iter().map(|&x| (x - centre) / diagonal).collect();
-    let triangles = Triangles::of(&scaled, &topology.triangles);
+    let stored = PRECISION.hypot(ROUNDING * farthest / diagonal);
+    let mut found = look(&scaled, topology, stored, 0.0);
+    if found.exact_share < HARDLY_ANYTHING {
+        found = through_noise(&scaled, topology).unwrap_or(found);
+    }
+    for fitted in found.surfaces.iter_mut().flatten() {
+        *fitted = fitted.moved(centre, diagonal);
+    }
+    found.noise *= diagonal;
+    found
+}
+
+/// The same where vertices are noisy: precision is what the noise leaves of it.
+fn through_noise(positions: &[DVec3], topology: &Topology) -> Option<Found> {
+    let mut noise = noise::standard_deviation(positions, topology)?;
+    let mut found = look(positions, topology, EXACT_DEVIATIONS * noise, noise);
+    for _ in 0..LOOKED_AGAIN {
+        // What flat pairs of triangles are off a plane may be design; what vertices are off large surfaces is not.
+        match noise::residual_of_most(&found.surfaces) {
+            Some(less) if less < MUCH_LESS * noise => noise = less,
+            _ => break,
+        }
+        found = look(positions, topology, EXACT_DEVIATIONS * noise, noise);
+    }
+    let triangles = Triangles::of(positions, &topology.triangles, noise);
+    let mut patches = Patches {
+        of_face: found.of_face,
+        surfaces: found.surfaces,
+    };
+    let noisy = Noisy {
+        positions,
+        topology,
+        triangles: &triangles,
+        noise,
+    };
+    noisy.relax(&mut patches);
+    let (of_face, part_of) = connected(topology, &patches.of_face);
+    Some(Found {
+        of_face,
+        surfaces: part_of
+            .iter()
+            .map(|&part| patches.surfaces[part as usize])
+            .collect(),
+        exact_share: found.exact_share,
+        noise,
+    })
+}
+
+/// Finds the patches of a mesh of diagonal one, whose vertices lie on its surfaces up to a root mean square of
+/// `precision`.
+fn look(scaled: &[DVec3], topology: &Topology, precision: f64, noise: f64) -> Found {
+    let ladder = LADDER.map(|tolerance| tolerance.max(6.0 * precision));
+    let triangles = Triangles::of(scaled, &topology.triangles, noise);
     let ground = Ground {
         precision,
-        positions: &scaled,
+        noise,
+        positions: scaled,
         triangles: &triangles,
         topology,
     };
@@ -161,18 +229,16 @@ pub fn find(positions: &[DVec3], topology: &Topology, farthest: f64) -> Found {
         .iter()
         .map(|&p| parts.of_piece[p as usize])
         .collect();
-    creases::split(&scaled, topology, &triangles, &parts.forms, &mut of_face);
+    creases::split(scaled, topology, &triangles, &parts.forms, &mut of_face);
     let (of_face, part_of) = connected(topology, &of_face);
     let mut surfaces = describe::surfaces(view, &regions, &parts, &part_of, ladder[0]);
-    let points = patch_points(&scaled, topology, &of_face, surfaces.len());
+    let points = patch_points(scaled, topology, &of_face, surfaces.len());
     snap::snap(&mut surfaces, &points, precision);
     Found {
         of_face,
-        surfaces: surfaces
-            .into_iter()
-            .map(|fitted| fitted.map(|f| f.moved(centre, diagonal)))
-            .collect(),
+        surfaces,
         exact_share,
+        noise,
     }
 }
 
@@ -230,6 +296,7 @@ fn nothing_exact(topology: &Topology) -> Found {
         of_face,
         surfaces: vec![None; part_of.len()],
         exact_share: 0.0,
+        noise: 0.0,
     }
 }
 
@@ -271,6 +338,7 @@ fn frame(positions: &[DVec3], topology: &Topology) -> (DVec3, f64) {
 #[derive(Clone, Copy)]
 struct Ground<'a> {
     precision: f64,
+    noise: f64,
     positions: &'a [DVec3],
     triangles: &'a Triangles,
     topology: &'a Topology,
@@ -299,12 +367,23 @@ fn climb(ground: Ground, ladder: [f64; 3]) -> (Pieces, Regions) {
         let flat = FLATNESS * tolerance;
         let fewest = PLANE_VERTICES[rung];
         pieces = recut(ground, flat, fewest, pieces, &mut regions);
+        // Noisy curved surfaces have flat pieces, too: planes compete with them.
+        let planes = if ground.noise > 0.0 {
+            let planes = certain_planes(ground.seen(&pieces), tolerance);
+            pieces.certain.fill(false);
+            planes
+        } else {
+            Vec::new()
+        };
         for piece in accept_planes(ground.seen(&pieces), &mut regions, rung == 0, tolerance) {
             pieces.certain[piece as usize] = false;
         }
         let view = ground.seen(&pieces);
-        step(view, ground.topology, &mut regions, rung, tolerance);
+        step(view, ground.topology, &mut regions, planes, rung, tolerance);
         absorb::absorb(view, &mut regions, tolerance);
+        if ground.noise > 0.0 {
+            tiles::dissolve(view, &mut regions);
+        }
         if exact_share(view, &regions) < HARDLY_ANYTHING {
             break;
         }
@@ -344,20 +423,32 @@ fn is_done(pieces: &Pieces, regions: &Regions) -> bool {
     !smooth.any(|link| link.pieces.into_iter().all(free))
 }
 
+/// A hypothesis for each piece that is a plane whatever lies beside it.
+fn certain_planes(view: View, tolerance: f64) -> Vec<Hypothesis> {
+    (0..view.pieces.count() as u32)
+        .filter(|&piece| view.pieces.certain[piece as usize])
+        .map(|piece| view.weigh(plane_of(view, piece), 1.0, vec![piece], tolerance))
+        .collect()
+}
+
+fn plane_of(view: View, piece: u32) -> Surface {
+    Surface {
+        kind: Kind::Plane,
+        point: view.pieces.centroids[piece as usize],
+        axis: view.pieces.normals[piece as usize],
+        a: 0.0,
+        b: 0.0,
+    }
+}
+
 /// Accepts the pieces that are planes whatever lies beside them, and gives those that are none after all: their
 /// vertices do not lie in a plane `exactly`.
 fn accept_planes(view: View, regions: &mut Regions, exactly: bool, tolerance: f64) -> Vec<u32> {
     let mut bent = Vec::new();
     for piece in 0..view.pieces.count() as u32 {
         if view.pieces.certain[piece as usize] && regions.owner[piece as usize] == NONE {
-            let plane = Surface {
-                kind: Kind::Plane,
-                point: view.pieces.centroids[piece as usize],
-                axis: view.pieces.normals[piece as usize],
-                a: 0.0,
-                b: 0.0,
-            };
             // A dense curved surface has flat pieces of many vertices, too: they only come near their planes.
+            let plane = plane_of(view, piece);
             let found = view.weigh(plane, 1.0, vec![piece], tolerance);
             if found.exact || !exactly {
                 regions.accept(found);
@@ -370,7 +461,14 @@ fn accept_planes(view: View, regions: &mut Regions, exactly: bool, tolerance: f6
 }
 
 /// One rung of the ladder of tolerances.
-fn step(view: View, topology: &Topology, regions: &mut Regions, rung: usize, tolerance: f64) {
+fn step(
+    view: View,
+    topology: &Topology,
+    regions: &mut Regions,
+    planes: Vec<Hypothesis>,
+    rung: usize,
+    tolerance: f64,
+) {
     let freed = if rung == 0 {
         Vec::new()
     } else {
@@ -384,7 +482,8 @@ fn step(view: View, topology: &Topology, regions: &mut Regions, rung: usize, tol
     let open: Vec<bool> = (0..view.pieces.count())
         .map(|p| regions.owner[p] == NONE)
         .collect();
-    let found = search(view, &open, rung, tolerance);
+    let mut found = search(view, &open, rung, tolerance);
+    found.extend(planes);
     let least = |kind: Kind| match (rung, kind) {
         (0, _) => 1,
         (1, Kind::Cylinder) => 8,

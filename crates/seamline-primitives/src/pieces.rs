@@ -1,6 +1,8 @@
 //! Flat pieces: the facets a tessellation is made of, each one or more triangles in one plane, and how they
 //! meet.
 
+use std::f64::consts::PI;
+
 use glam::DVec3;
 use seamline_mesh::Topology;
 
@@ -12,7 +14,10 @@ pub(crate) const NONE: u32 = u32::MAX;
 
 /// Dihedral angle above which no surface continues. Inside true patches next to nothing is above 40 degrees
 /// in any export measured; the least common crease of parts, 45 degrees, is.
-const WALL: f64 = 40.0 / 180.0 * std::f64::consts::PI;
+const WALL: f64 = 40.0 / 180.0 * PI;
+
+/// Standard deviations of a vertex for which the normal of a triangle is turned with it.
+const LEANS: f64 = 3.0;
 
 /// Two pieces that share edges.
 #[derive(Clone, Copy, Debug)]
@@ -56,6 +61,8 @@ pub(crate) struct Pieces {
     pub link_edges: Rows,
     /// Pieces that are planes whatever lies beside them.
     pub certain: Vec<bool>,
+    /// How far noise may turn the normal, radians.
+    pub leans: Vec<f64>,
     /// Pieces with an edge where the mesh ends or branches.
     pub open: Vec<bool>,
 }
@@ -67,16 +74,19 @@ pub(crate) struct Triangles {
     pub areas: Vec<f64>,
     /// Area doubled over the longest edge.
     pub heights: Vec<f64>,
+    /// How far noise may turn the normal, radians.
+    pub leans: Vec<f64>,
 }
 
 impl Triangles {
-    pub fn of(positions: &[DVec3], triangles: &[[u32; 3]]) -> Self {
+    pub fn of(positions: &[DVec3], triangles: &[[u32; 3]], noise: f64) -> Self {
         let count = triangles.len();
         let mut all = Self {
             normals: Vec::with_capacity(count),
             centroids: Vec::with_capacity(count),
             areas: Vec::with_capacity(count),
             heights: Vec::with_capacity(count),
+            leans: Vec::with_capacity(count),
         };
         for corners in triangles {
             let [a, b, c] = corners.map(|v| positions[v as usize]);
@@ -90,11 +100,14 @@ impl Triangles {
             all.normals.push(cross.normalize_or_zero());
             all.centroids.push((a + b + c) / 3.0);
             all.areas.push(doubled / 2.0);
-            all.heights.push(if longest > 0.0 {
+            let height = if longest > 0.0 {
                 doubled / longest
             } else {
                 0.0
-            });
+            };
+            all.heights.push(height);
+            all.leans
+                .push((LEANS * noise / height.max(f64::MIN_POSITIVE)).min(PI));
         }
         all
     }
@@ -117,6 +130,7 @@ impl Pieces {
         let mut normals = vec![DVec3::ZERO; count];
         let mut centroids = vec![DVec3::ZERO; count];
         let mut areas = vec![0.0; count];
+        let mut leans = vec![PI; count];
         let mut faces = Vec::with_capacity(of_face.len());
         let mut vertices = Vec::with_capacity(of_face.len() * 3);
         for (face, &piece) in of_face.iter().enumerate() {
@@ -124,6 +138,8 @@ impl Pieces {
             normals[piece as usize] += triangles.normals[face] * area;
             centroids[piece as usize] += triangles.centroids[face] * area;
             areas[piece as usize] += area;
+            let lean = &mut leans[piece as usize];
+            *lean = lean.min(triangles.leans[face]);
             faces.push((piece, face as u32));
             vertices.extend(topology.triangles[face].map(|v| (piece, v)));
         }
@@ -151,6 +167,7 @@ impl Pieces {
             vertices: Rows::of_pairs(count, &vertices),
             of_face,
             open: vec![false; count],
+            leans,
             ..Self::default()
         };
         pieces.link(positions, topology);
@@ -197,10 +214,11 @@ impl Pieces {
                 })
                 .sum();
             let [a, b] = pieces.map(|p| self.normals[p as usize]);
+            let [lean_a, lean_b] = pieces.map(|p| self.leans[p as usize]);
             self.links.push(Link {
                 pieces,
                 length,
-                wall: a.angle_between(b) > WALL,
+                wall: a.angle_between(b) > WALL + lean_a + lean_b,
             });
             around.extend(pieces.map(|p| (p, link)));
             edges.extend(common.iter().map(|&(_, edge)| (link, edge)));
@@ -288,7 +306,9 @@ fn spread_flat(
         let away = (triangles.normals[face] - normal).length();
         let sure = triangles.heights[face].max(f64::MIN_POSITIVE);
         let agrees = away <= 0.004 + 4.0 * tolerance / sure
-            && (triangles.normals[face].dot(normal) >= 0.5 || triangles.areas[face] == 0.0);
+            && (triangles.normals[face].dot(normal)
+                >= (PI / 3.0 + triangles.leans[face]).min(PI).cos()
+                || triangles.areas[face] == 0.0);
         agrees
             && topology.triangles[face]
                 .iter()

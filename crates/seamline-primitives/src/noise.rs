@@ -1,0 +1,87 @@
+//! How far vertices were moved off the surface they were put on.
+//!
+//! Many edges of a CAD mesh lie in a plane or along a ruling: the four corners about such an edge lie in one plane
+//! but for the noise. What they are off it, in units of what one vertex moved by one would make of it, has the
+//! distribution of the noise itself; about the other edges it is far larger. So the least values are in proportion
+//! to their rank, as those of any distribution smooth about zero, and where they cease to be the noise ends.
+
+use glam::DVec3;
+use seamline_mesh::Topology;
+
+use crate::Fitted;
+
+/// Share of the edges that is looked at first: fewer say little.
+const FIRST_SHARE: f64 = 0.12;
+/// How much larger the next share is.
+const STEP: f64 = 1.15;
+/// Half as many values are half as large, or more where a bell curve has reached its standard deviation: the
+/// logarithm of the ratio of ranks over that of the values there.
+const KNEE: f64 = 0.8;
+/// The standard deviation over the geometric mean of the values between which the knee is.
+const DEVIATION: f64 = 1.1;
+/// Least cosine between the normals of two faces that may be in one plane but for noise: 45 degrees.
+const ONE_PLANE: f64 = 0.7;
+
+/// Evidence from which what vertices are off a surface says how noisy they are.
+const SOME_EVIDENCE: u32 = 20;
+
+/// Standard deviation of each coordinate of the vertices, in the unit of `positions`. Too large on a mesh without
+/// flat pairs of triangles, where it is how far these are off a plane by design. `None` for fewer than a few edges.
+pub(crate) fn standard_deviation(positions: &[DVec3], topology: &Topology) -> Option<f64> {
+    let mut away: Vec<f64> = (0..topology.edge_faces.len())
+        .filter_map(|edge| off_one_plane(positions, topology, edge))
+        .collect();
+    away.sort_unstable_by(f64::total_cmp);
+    let at = |share: f64| away.get((share * away.len() as f64) as usize).copied();
+    let mut share = FIRST_SHARE;
+    while share < 0.9 {
+        let [half, whole] = [at(share / 2.0)?, at(share)?];
+        if whole > half && 2f64.ln() / (whole / half).ln() < KNEE {
+            return Some(DEVIATION * (half * whole).sqrt());
+        }
+        share *= STEP;
+    }
+    // Half of a bell curve is within .67 deviations.
+    Some(at(0.5)? / 0.67)
+}
+
+/// How far the corners of the two faces of an edge are off one plane, in units of their noise: their volume over the
+/// length of its gradient.
+fn off_one_plane(positions: &[DVec3], topology: &Topology, edge: usize) -> Option<f64> {
+    let faces = topology.face_pair(edge)?;
+    let ends = topology.edge_vertices[edge];
+    let opposite = |face: u32| {
+        let mut corners = topology.triangles[face as usize].into_iter();
+        corners.find(|v| !ends.contains(v))
+    };
+    let [p, q] = ends.map(|v| positions[v as usize]);
+    let a = positions[opposite(faces[0])? as usize];
+    let b = positions[opposite(faces[1])? as usize];
+    let [left, right] = [(q - p).cross(a - p), (b - p).cross(q - p)];
+    if left.dot(right) < ONE_PLANE * left.length() * right.length() {
+        return None;
+    }
+    let gradient = left.length_squared()
+        + right.length_squared()
+        + (a - q).cross(b - q).length_squared()
+        + (a - p).cross(b - p).length_squared();
+    let away = left.dot(b - p).abs() / gradient.sqrt();
+    (away > 0.0).then_some(away)
+}
+
+/// The median residual of surfaces of some evidence.
+pub(crate) fn residual_of_most(surfaces: &[Option<Fitted>]) -> Option<f64> {
+    let mut residuals: Vec<(f64, f64)> = surfaces
+        .iter()
+        .flatten()
+        .filter(|fitted| fitted.evidence >= SOME_EVIDENCE)
+        .map(|fitted| (fitted.residual, f64::from(fitted.evidence)))
+        .collect();
+    residuals.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let half = residuals.iter().map(|r| r.1).sum::<f64>() / 2.0;
+    let mut sum = 0.0;
+    residuals.into_iter().find_map(|(residual, evidence)| {
+        sum += evidence;
+        (sum >= half).then_some(residual)
+    })
+}

@@ -172,36 +172,61 @@ fn sheet() -> String {
 
 #[test]
 fn all_boundaries_of_a_smooth_cube_given_as_edges_come_back_as_its_26_patches() {
-    let cube = shapes::smooth_cube(0.2, 4, 6);
-    let mesh = weld(cube.polygons(), 0.0);
-    let topology = Topology::build(mesh.positions().len(), mesh.triangles.clone());
-    let patch = |triangle: u32| cube.patches[mesh.face_of_triangle[triangle as usize] as usize];
-    let between = (0..topology.edge_faces.len()).filter(|&edge| {
-        let faces = topology.face_pair(edge);
-        faces.is_some_and(|[a, b]| patch(a) != patch(b))
-    });
-    let lines: Vec<String> = between
-        .map(|edge| {
-            let [a, b] = topology.edge_vertices[edge];
-            format!("{a} {b}\n")
-        })
-        .collect();
-    let mut obj = Vec::new();
-    write_obj(&mut obj, &mesh.polygons).expect("memory takes every byte");
-    let home = Home::new();
-    home.put("smooth.obj", obj);
-    home.put("smooth.edges.txt", lines.concat());
-    for more in ["", " --set contour-tracking.dangling=keep"] {
-        let ran = home
-            .run(&format!(
-                "rectify smooth.obj --edges smooth.edges.txt{more}"
-            ))
-            .ended(0);
-        assert!(ran.err.contains(": 26 patches of "), "{}", ran.err);
-        assert!(!ran.err.contains("doubted"), "{}", ran.err);
-        let found = home.labels("smooth.obj.seamline");
-        assert!(same_partition(&found, &cube.patches));
+    // Flats four edges long and flats one edge long.
+    for (flat_steps, edge_steps) in [(4, 6), (1, 6), (1, 4)] {
+        let cube = shapes::smooth_cube(0.2, flat_steps, edge_steps);
+        let mesh = weld(cube.polygons(), 0.0);
+        let topology = Topology::build(mesh.positions().len(), mesh.triangles.clone());
+        let patch = |triangle: u32| cube.patches[mesh.face_of_triangle[triangle as usize] as usize];
+        let between = (0..topology.edge_faces.len()).filter(|&edge| {
+            let faces = topology.face_pair(edge);
+            faces.is_some_and(|[a, b]| patch(a) != patch(b))
+        });
+        let lines: Vec<String> = between
+            .map(|edge| {
+                let [a, b] = topology.edge_vertices[edge];
+                format!("{a} {b}\n")
+            })
+            .collect();
+        let mut obj = Vec::new();
+        write_obj(&mut obj, &mesh.polygons).expect("memory takes every byte");
+        let home = Home::new();
+        home.put("smooth.obj", obj);
+        home.put("smooth.edges.txt", lines.concat());
+        for more in ["", " --set contour-tracking.dangling=keep"] {
+            let ran = home
+                .run(&format!(
+                    "rectify smooth.obj --edges smooth.edges.txt{more}"
+                ))
+                .ended(0);
+            assert!(ran.err.contains(": 26 patches of "), "{}", ran.err);
+            assert!(!ran.err.contains("doubted"), "{}", ran.err);
+            let found = home.labels("smooth.obj.seamline");
+            assert!(same_partition(&found, &cube.patches));
+        }
     }
+}
+
+#[test]
+fn one_edge_across_a_flat_is_doubted_though_it_goes_from_rim_to_rim() {
+    let home = Home::new();
+    let triangles = SIDES.iter().flat_map(|side| {
+        let corners: Vec<&str> = side[2..].split_whitespace().collect();
+        let [a, b, c, d] = corners[..] else {
+            panic!("a square")
+        };
+        [format!("f {a} {b} {c}\n"), format!("f {a} {c} {d}\n")]
+    });
+    home.put("cube.obj", CUBE.to_owned() + &triangles.collect::<String>());
+    let rim = "0 1\n1 2\n2 3\n3 0\n4 5\n5 6\n6 7\n7 4\n0 4\n1 5\n2 6\n3 7\n";
+    home.put("cube.edges.txt", rim.to_owned() + "3 1\n");
+    let given = "rectify cube.obj --edges cube.edges.txt";
+    let ran = home.run(given).ended(0);
+    assert!(ran.err.contains(": 6 patches of "), "{}", ran.err);
+    assert!(ran.err.contains("; 1 edge doubted: "), "{}", ran.err);
+    let all = format!("{given} --set contour-tracking.doubt_given=false");
+    let ran = home.run(&all).ended(0);
+    assert!(ran.err.contains(": 7 patches of "), "{}", ran.err);
 }
 
 /// A sheet of ten by sixteen, folded by so many degrees along its middle, row upon row.

@@ -7,6 +7,7 @@ mod mark;
 mod patches;
 mod straighten;
 mod stretches;
+mod strokes;
 mod track;
 
 use schemars::JsonSchema;
@@ -21,6 +22,7 @@ pub use mark::{mark, mark_given};
 pub use patches::patches;
 pub use straighten::straighten;
 pub use stretches::stretches;
+pub use strokes::strokes;
 pub use track::track;
 
 /// The plugin, and its `[contour-tracking]` table.
@@ -44,8 +46,9 @@ pub struct ContourTrackingSettings {
     pub max_gap_share: f64,
     /// What becomes of a piece of contour that ends where nothing closes it, and so encloses no patch.
     pub dangling: DanglingRule,
-    /// Given edges, of which some may be wrong: a run of them between two junctions is not taken if it closes nothing
-    /// and none of it is correct by its score or turns by more than 15 degrees.
+    /// Given edges, of which some may be wrong: a run of them between two junctions is not taken if none of it is correct
+    /// by its score or turns by more than 15 degrees, and it closes nothing, or closes something by one edge alone that
+    /// goes on straight at neither end, as an edge thrown across a flat does.
     pub doubt_given: bool,
     /// Given labels: where their boundary turns by more than this between edges that are not correct it is rough, and
     /// the faces beside it are labelled anew before anything else; else it is kept as it is. The sides of a cylinder of
@@ -197,7 +200,7 @@ impl ContourTrackingSettings {
         match mesh.given_as {
             GivenAs::Edges | GivenAs::HardEdges => {
                 let doubt = self.doubt_given && mesh.given_as == GivenAs::Edges;
-                doubted = mark_given(mesh, doubt, self, &mut states);
+                doubted = mark_given(mesh, ground, doubt, self, &mut states);
             }
             GivenAs::Nothing => mark(topology, scores, mesh.sharp, labels, self, &mut states),
             GivenAs::Labels => {

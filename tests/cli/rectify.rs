@@ -416,3 +416,73 @@ fn a_gap_is_closed_or_left_open_as_is_asked_for() {
         assert!(said.contains("2 edges inside a patch"), "{said}");
     }
 }
+
+#[test]
+fn edges_given_on_a_border_are_told_and_change_nothing() {
+    let home = Home::new();
+    home.put("sheet.obj", sheet());
+    let seam = "2 7\n7 12\n12 17\n17 22\n";
+    home.put("seam.edges.txt", seam);
+    home.put("more.edges.txt", seam.to_owned() + "0 1\n1 2\n");
+    home.run("rectify sheet.obj --edges seam.edges.txt")
+        .ended(0);
+    let without = labels(&home, "sheet.obj");
+    let ran = home
+        .run("rectify sheet.obj --edges more.edges.txt")
+        .ended(0);
+    let said = "2 edges given on borders, which are boundaries anyway";
+    assert!(ran.err.contains(said), "{}", ran.err);
+    assert_eq!(labels(&home, "sheet.obj"), without);
+    let edges = &home.json("sheet.obj.seamline/report.json")["changes"]["edges"];
+    assert_eq!(
+        (&edges["given"], &edges["at_borders"]),
+        (&4.into(), &2.into())
+    );
+}
+
+#[test]
+fn the_one_fraction_a_face_of_a_ply_has_is_its_label_if_it_is_whole() {
+    let home = with_cube();
+    let ply = |scale: f64| {
+        let head = "ply\nformat ascii 1.0\nelement face 6\nproperty float scalar\nend_header\n";
+        let lines = (0..6).map(|face| format!("{}\n", f64::from(face / 2) * scale));
+        head.to_owned() + &lines.collect::<String>()
+    };
+    home.put("whole.ply", ply(1.0));
+    home.run("rectify cube.obj --labels whole.ply").ended(0);
+    // Bottom and top do not touch and are two patches.
+    assert_eq!(labels(&home, "cube.obj"), "0 1 2 2 3 3");
+    home.put("half.ply", ply(0.5));
+    let ran = home.run("rectify cube.obj --labels half.ply").ended(1);
+    assert!(ran.err.contains("0.5 is no label"), "{}", ran.err);
+}
+
+#[test]
+fn refined_boundaries_tell_what_was_given_from_what_is_new() {
+    let home = Home::new();
+    home.put("flat.obj", folded_sheet(0.0));
+    // Stairs one square deep across a flat sheet of ten by sixteen squares.
+    let label = |i: usize| u32::from(i % 10 >= 4 + i / 10 % 2);
+    let lines: Vec<String> = (0..160).map(|i| format!("{}\n", label(i))).collect();
+    home.put("stairs.seg", lines.concat());
+    let keep = "--set contour-tracking.rough_above_deg=180";
+    home.run(&format!(
+        "rectify flat.obj --labels stairs.seg --refine {keep}"
+    ))
+    .ended(0);
+    let report = home.json("flat.obj.seamline/report.json");
+    let added = report["refined"]["vertices_added"].as_u64();
+    assert!(added.is_some_and(|added| added > 0), "{added:?}");
+    let curves = fs::read_to_string(home.at("flat.obj.seamline/boundaries.obj")).unwrap();
+    let groups: Vec<&str> = curves
+        .lines()
+        .filter(|line| line.starts_with('g'))
+        .collect();
+    assert!(groups.contains(&"g patch_0_patch_1 new"), "{groups:?}");
+    assert!(
+        groups.iter().all(|group| group.ends_with(" old")
+            || group.ends_with(" new")
+            || ["g removed", "g crease"].contains(group)),
+        "{groups:?}"
+    );
+}

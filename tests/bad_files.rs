@@ -143,3 +143,18 @@ fn one_bad_file_of_every_kind_leaves_the_good_ones_done() {
         }
     }
 }
+
+#[test]
+fn a_prism_with_triangles_turned_inside_out_has_its_three_patches() {
+    let Some(folder) = bench("bad") else { return };
+    let output = tempfile::tempdir().expect("a folder for results");
+    run(seamline()
+        .args(["segment", "-o"])
+        .arg(output.path())
+        .arg(folder.join("flipped.stl")))
+    .ended(0);
+    let labels = fs::read_to_string(output.path().join("flipped.stl.seamline/labels.seg"));
+    let labels = labels.expect("labels are there");
+    let last = labels.lines().filter_map(|line| line.parse::<u32>().ok());
+    assert_eq!(last.max(), Some(2));
+}

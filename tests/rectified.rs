@@ -2,7 +2,8 @@
 
 use std::sync::Arc;
 
-use seamline_ecs::Worker;
+use seamline_ecs::components::BoundaryScore;
+use seamline_ecs::{Worker, rows};
 use seamline_mesh::{Markings, Mesh, Topology, shapes, weld};
 use seamline_tests::score::agreement;
 use seamline_tests::{pipeline, same_partition};
@@ -72,4 +73,21 @@ fn labels_of_one_mesh_do_not_serve_the_next() {
     ));
     let nothing = worker.run(mesh, None).expect_err("nothing is given");
     assert_eq!(nothing.message, "nothing is given to be rectified");
+}
+
+#[test]
+fn scores_are_computed_only_where_a_contour_is_open_or_rough() {
+    let (mesh, truth) = cube();
+    let rough = roughened(&mesh, &truth);
+    for (labels, are_needed) in [(&truth, false), (&rough, true)] {
+        for profile in ["pipeline.profile=cad", "pipeline.profile=lavoue2005"] {
+            let mut worker = Worker::new(pipeline(&["pipeline.kind=rectify", profile]));
+            let given = Arc::new(Markings::Labels(labels.clone()));
+            worker
+                .run(Arc::clone(&mesh), Some(given))
+                .expect("it is rectified");
+            let scores = rows::column_mut::<BoundaryScore>(worker.world_mut());
+            assert_eq!(scores.iter().any(|score| score.0 != 0.0), are_needed);
+        }
+    }
 }

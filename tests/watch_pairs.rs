@@ -4,6 +4,7 @@ use std::fs;
 use std::time::Duration;
 
 use seamline_tests::daemon::{Home, cuboid};
+use seamline_tests::run;
 
 const RULE: &str = "[[rules]]\nfiles = [\"pairs/**\"]\npipeline = \"rectify\"\n";
 
@@ -108,4 +109,37 @@ fn other_labels_for_the_same_mesh_are_another_job() {
     home.drop("pairs/part.seg", "1\n".repeat(6));
     home.once().ended(0);
     assert_eq!(patches(), Some(1));
+}
+
+#[test]
+fn a_mesh_with_labels_and_edges_beside_it_is_quarantined_and_the_one_that_stays_serves() {
+    let home = pairs(60_000);
+    home.drop("pairs/part.obj", cuboid(1.0));
+    home.drop("pairs/part.seg", labels());
+    home.drop("pairs/part.edges.txt", "0 1\n");
+    home.once().ended(1);
+    let reason = home.reason("pairs/part.obj").expect("it is in quarantine");
+    let message = "has labels and edges beside it, part.seg and part.edges.txt";
+    assert_eq!(reason["message"], message);
+    fs::remove_file(home.inbox().join("pairs/part.edges.txt")).expect("it is where it was");
+    home.requeue(&["--all-quarantined"]);
+    home.once().ended(0);
+    assert_eq!(home.labels("pairs/part.obj"), 6);
+}
+
+#[test]
+fn a_dry_run_lists_pairs_by_their_mesh_and_markings_without_one_by_themselves() {
+    let home = pairs(60_000);
+    home.drop("pairs/part.obj", cuboid(1.0));
+    home.drop("pairs/part.seg", labels());
+    home.drop("pairs/lone.seg", labels());
+    home.drop("alone.obj", cuboid(2.0));
+    home.drop("alone.seg", labels());
+    let told = run(home.watch().arg("--dry-run")).ended(0).out;
+    let mut names: Vec<&str> = told
+        .lines()
+        .filter_map(|line| line.rsplit('/').next())
+        .collect();
+    names.sort_unstable();
+    assert_eq!(names, ["alone.obj", "lone.seg", "part.obj"]);
 }

@@ -114,6 +114,7 @@ impl Bare {
             curvatures: &curvatures,
             labels: &self.labels,
             length: self.length,
+            turned: false,
             given: None,
         };
         describe(mesh, &rows, face_patches)

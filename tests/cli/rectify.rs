@@ -172,36 +172,61 @@ fn sheet() -> String {
 
 #[test]
 fn all_boundaries_of_a_smooth_cube_given_as_edges_come_back_as_its_26_patches() {
-    let cube = shapes::smooth_cube(0.2, 4, 6);
-    let mesh = weld(cube.polygons(), 0.0);
-    let topology = Topology::build(mesh.positions().len(), mesh.triangles.clone());
-    let patch = |triangle: u32| cube.patches[mesh.face_of_triangle[triangle as usize] as usize];
-    let between = (0..topology.edge_faces.len()).filter(|&edge| {
-        let faces = topology.face_pair(edge);
-        faces.is_some_and(|[a, b]| patch(a) != patch(b))
-    });
-    let lines: Vec<String> = between
-        .map(|edge| {
-            let [a, b] = topology.edge_vertices[edge];
-            format!("{a} {b}\n")
-        })
-        .collect();
-    let mut obj = Vec::new();
-    write_obj(&mut obj, &mesh.polygons).expect("memory takes every byte");
-    let home = Home::new();
-    home.put("smooth.obj", obj);
-    home.put("smooth.edges.txt", lines.concat());
-    for more in ["", " --set contour-tracking.dangling=keep"] {
-        let ran = home
-            .run(&format!(
-                "rectify smooth.obj --edges smooth.edges.txt{more}"
-            ))
-            .ended(0);
-        assert!(ran.err.contains(": 26 patches of "), "{}", ran.err);
-        assert!(!ran.err.contains("doubted"), "{}", ran.err);
-        let found = home.labels("smooth.obj.seamline");
-        assert!(same_partition(&found, &cube.patches));
+    // Flats four edges long and flats one edge long.
+    for (flat_steps, edge_steps) in [(4, 6), (1, 6), (1, 4)] {
+        let cube = shapes::smooth_cube(0.2, flat_steps, edge_steps);
+        let mesh = weld(cube.polygons(), 0.0);
+        let topology = Topology::build(mesh.positions().len(), mesh.triangles.clone());
+        let patch = |triangle: u32| cube.patches[mesh.face_of_triangle[triangle as usize] as usize];
+        let between = (0..topology.edge_faces.len()).filter(|&edge| {
+            let faces = topology.face_pair(edge);
+            faces.is_some_and(|[a, b]| patch(a) != patch(b))
+        });
+        let lines: Vec<String> = between
+            .map(|edge| {
+                let [a, b] = topology.edge_vertices[edge];
+                format!("{a} {b}\n")
+            })
+            .collect();
+        let mut obj = Vec::new();
+        write_obj(&mut obj, &mesh.polygons).expect("memory takes every byte");
+        let home = Home::new();
+        home.put("smooth.obj", obj);
+        home.put("smooth.edges.txt", lines.concat());
+        for more in ["", " --set contour-tracking.dangling=keep"] {
+            let ran = home
+                .run(&format!(
+                    "rectify smooth.obj --edges smooth.edges.txt{more}"
+                ))
+                .ended(0);
+            assert!(ran.err.contains(": 26 patches of "), "{}", ran.err);
+            assert!(!ran.err.contains("doubted"), "{}", ran.err);
+            let found = home.labels("smooth.obj.seamline");
+            assert!(same_partition(&found, &cube.patches));
+        }
     }
+}
+
+#[test]
+fn one_edge_across_a_flat_is_doubted_though_it_goes_from_rim_to_rim() {
+    let home = Home::new();
+    let triangles = SIDES.iter().flat_map(|side| {
+        let corners: Vec<&str> = side[2..].split_whitespace().collect();
+        let [a, b, c, d] = corners[..] else {
+            panic!("a square")
+        };
+        [format!("f {a} {b} {c}\n"), format!("f {a} {c} {d}\n")]
+    });
+    home.put("cube.obj", CUBE.to_owned() + &triangles.collect::<String>());
+    let rim = "0 1\n1 2\n2 3\n3 0\n4 5\n5 6\n6 7\n7 4\n0 4\n1 5\n2 6\n3 7\n";
+    home.put("cube.edges.txt", rim.to_owned() + "3 1\n");
+    let given = "rectify cube.obj --edges cube.edges.txt";
+    let ran = home.run(given).ended(0);
+    assert!(ran.err.contains(": 6 patches of "), "{}", ran.err);
+    assert!(ran.err.contains("; 1 edge doubted: "), "{}", ran.err);
+    let all = format!("{given} --set contour-tracking.doubt_given=false");
+    let ran = home.run(&all).ended(0);
+    assert!(ran.err.contains(": 7 patches of "), "{}", ran.err);
 }
 
 /// A sheet of ten by sixteen, folded by so many degrees along its middle, row upon row.
@@ -390,4 +415,74 @@ fn a_gap_is_closed_or_left_open_as_is_asked_for() {
         assert_eq!((added, removed, creases, left), (0, 0, 2, 1), "{limits}");
         assert!(said.contains("2 edges inside a patch"), "{said}");
     }
+}
+
+#[test]
+fn edges_given_on_a_border_are_told_and_change_nothing() {
+    let home = Home::new();
+    home.put("sheet.obj", sheet());
+    let seam = "2 7\n7 12\n12 17\n17 22\n";
+    home.put("seam.edges.txt", seam);
+    home.put("more.edges.txt", seam.to_owned() + "0 1\n1 2\n");
+    home.run("rectify sheet.obj --edges seam.edges.txt")
+        .ended(0);
+    let without = labels(&home, "sheet.obj");
+    let ran = home
+        .run("rectify sheet.obj --edges more.edges.txt")
+        .ended(0);
+    let said = "2 edges given on borders, which are boundaries anyway";
+    assert!(ran.err.contains(said), "{}", ran.err);
+    assert_eq!(labels(&home, "sheet.obj"), without);
+    let edges = &home.json("sheet.obj.seamline/report.json")["changes"]["edges"];
+    assert_eq!(
+        (&edges["given"], &edges["at_borders"]),
+        (&4.into(), &2.into())
+    );
+}
+
+#[test]
+fn the_one_fraction_a_face_of_a_ply_has_is_its_label_if_it_is_whole() {
+    let home = with_cube();
+    let ply = |scale: f64| {
+        let head = "ply\nformat ascii 1.0\nelement face 6\nproperty float scalar\nend_header\n";
+        let lines = (0..6).map(|face| format!("{}\n", f64::from(face / 2) * scale));
+        head.to_owned() + &lines.collect::<String>()
+    };
+    home.put("whole.ply", ply(1.0));
+    home.run("rectify cube.obj --labels whole.ply").ended(0);
+    // Bottom and top do not touch and are two patches.
+    assert_eq!(labels(&home, "cube.obj"), "0 1 2 2 3 3");
+    home.put("half.ply", ply(0.5));
+    let ran = home.run("rectify cube.obj --labels half.ply").ended(1);
+    assert!(ran.err.contains("0.5 is no label"), "{}", ran.err);
+}
+
+#[test]
+fn refined_boundaries_tell_what_was_given_from_what_is_new() {
+    let home = Home::new();
+    home.put("flat.obj", folded_sheet(0.0));
+    // Stairs one square deep across a flat sheet of ten by sixteen squares.
+    let label = |i: usize| u32::from(i % 10 >= 4 + i / 10 % 2);
+    let lines: Vec<String> = (0..160).map(|i| format!("{}\n", label(i))).collect();
+    home.put("stairs.seg", lines.concat());
+    let keep = "--set contour-tracking.rough_above_deg=180";
+    home.run(&format!(
+        "rectify flat.obj --labels stairs.seg --refine {keep}"
+    ))
+    .ended(0);
+    let report = home.json("flat.obj.seamline/report.json");
+    let added = report["refined"]["vertices_added"].as_u64();
+    assert!(added.is_some_and(|added| added > 0), "{added:?}");
+    let curves = fs::read_to_string(home.at("flat.obj.seamline/boundaries.obj")).unwrap();
+    let groups: Vec<&str> = curves
+        .lines()
+        .filter(|line| line.starts_with('g'))
+        .collect();
+    assert!(groups.contains(&"g patch_0_patch_1 new"), "{groups:?}");
+    assert!(
+        groups.iter().all(|group| group.ends_with(" old")
+            || group.ends_with(" new")
+            || ["g removed", "g crease"].contains(group)),
+        "{groups:?}"
+    );
 }

@@ -183,3 +183,46 @@ fn patches_that_meet_at_a_non_manifold_edge_are_neighbours_all_of_them() {
             .all(|b| b["length"] == 1.0)
     );
 }
+
+#[test]
+fn a_cube_every_third_triangle_of_which_is_inside_out_has_six_patches() {
+    let home = Home::new();
+    let mut text = String::new();
+    for i in 0..8 {
+        text += &format!("v {} {} {}\n", i & 1, i >> 1 & 1, i >> 2);
+    }
+    let squares = [
+        [1, 3, 4, 2],
+        [5, 6, 8, 7],
+        [1, 2, 6, 5],
+        [3, 7, 8, 4],
+        [1, 5, 7, 3],
+        [2, 4, 8, 6],
+    ];
+    let halves = squares
+        .iter()
+        .flat_map(|&[a, b, c, d]| [[a, b, c], [a, c, d]]);
+    for (i, [a, b, c]) in halves.enumerate() {
+        text += &if i % 3 == 0 {
+            format!("f {a} {c} {b}\n")
+        } else {
+            format!("f {a} {b} {c}\n")
+        };
+    }
+    home.put("cube.obj", text);
+    home.run("segment cube.obj").ended(0);
+    let labels = home.labels("cube.obj.seamline");
+    assert_eq!(labels, [0, 0, 1, 1, 2, 2, 3, 3, 4, 4, 5, 5]);
+    let report = home.json("cube.obj.seamline/report.json");
+    let stages = report["stages"].as_array().expect("stages");
+    let import = stages.iter().find(|stage| stage["stage"] == "import");
+    assert_eq!(
+        import.expect("it is there")["counts"]["turned_triangles"],
+        4
+    );
+    // What the file was like is told as it was.
+    let oriented = serde_json::to_string(&report)
+        .expect("JSON")
+        .contains("\"oriented\":false");
+    assert!(oriented);
+}

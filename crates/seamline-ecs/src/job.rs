@@ -23,6 +23,8 @@ pub struct GivenBoundary {
     pub edges: Vec<u32>,
     /// What they were given as.
     pub origin: GivenAs,
+    /// How many edges were given besides that have not just two faces: contours end there anyway.
+    pub at_borders: usize,
 }
 
 /// What boundaries were given as.

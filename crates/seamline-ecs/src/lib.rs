@@ -28,10 +28,10 @@ pub use job::{
 };
 pub use pipeline::{BuiltinSteps, InstallStep, Pipeline, PipelineKind, PipelineSettings, tables};
 pub use plugin::{
-    Classifier, Clusters, CommandSettings, CurvatureSamples, EndFate, LabelledMesh, Labels,
-    MakeSystems, OpenEnd, OpenEnds, PluginChoice, PluginEntry, Rectifier, Registry, SwappableStage,
-    boundary, classifier_systems, rectifier_systems,
+    Answered, Classifier, Clusters, CommandSettings, CurvatureSamples, EndFate, LabelledMesh,
+    Labels, MakeSystems, OpenEnd, OpenEnds, PluginChoice, PluginEntry, Rectifier, Registry,
+    SwappableStage, boundary, classifier_systems, rectifier_systems,
 };
 pub use results::Segmentation;
-pub use stage::{Stage, StageSystems, StepError, fallible};
+pub use stage::{Scoring, Stage, StageSystems, StepError, fallible};
 pub use worker::{Progress, StageError, Worker};

@@ -7,8 +7,9 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use toml::{Table, Value};
 
-use crate::plugin::{MakeSystems, PluginChoice, Registry, SwappableStage};
+use crate::plugin::{MakeSystems, PluginChoice, PluginEntry, Registry, SwappableStage};
 use crate::settings::{self, OutOfRange, Profile, SettingsError, SettingsTable, StepSettings};
+use crate::stage::{Scoring, Stage};
 
 /// Puts systems into a schedule and their settings into its world.
 pub type InstallStep = Arc<dyn Fn(&mut World, &mut Schedule) + Send + Sync>;
@@ -123,6 +124,14 @@ impl Pipeline {
         {
             let systems = choose(registry, stage, choice, &in_force)?;
             install.extend(systems.map(|make| install_plugin(stage, make)));
+            if kind == PipelineKind::Rectify
+                && let PluginChoice::Named(name) = choice
+                && let Ok(PluginEntry {
+                    early: Some(early), ..
+                }) = registry.find(stage, name)
+            {
+                install.push(install_early(early(&in_force)?));
+            }
         }
 
         let chosen = [&pipeline.classifier, &pipeline.rectifier];
@@ -245,6 +254,13 @@ fn choose(
     };
     *name = entry.map_or("none", |entry| entry.name).to_owned();
     entry.map(|entry| (entry.systems)(in_force)).transpose()
+}
+
+/// What a rectifier can answer before there are scores is asked for ahead of them.
+fn install_early(make: MakeSystems) -> InstallStep {
+    Arc::new(move |_: &mut World, schedule: &mut Schedule| {
+        schedule.add_systems(make().in_set(Stage::Score).before(Scoring));
+    })
 }
 
 fn install_plugin(stage: SwappableStage, make: MakeSystems) -> InstallStep {

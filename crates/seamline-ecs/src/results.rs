@@ -193,9 +193,12 @@ pub struct RefinedMesh {
     /// Curvature at each vertex.
     #[serde(skip)]
     pub vertices: VertexQuantities,
-    /// The curves of each pair of patches.
+    /// The curves of each pair of patches along edges that were given, as polylines.
     #[serde(skip)]
-    pub curves: Vec<([u32; 2], Vec<Vec<u32>>)>,
+    pub kept: Vec<([u32; 2], Vec<Vec<u32>>)>,
+    /// The same along others, those through triangles among them.
+    #[serde(skip)]
+    pub added: Vec<([u32; 2], Vec<Vec<u32>>)>,
 }
 
 /// What rectifying has changed of the boundaries given. Lengths are in the file's unit, vertices those of the
@@ -222,7 +225,7 @@ pub struct Changes {
     pub crease_curves: Vec<Vec<u32>>,
 }
 
-/// Edges of boundaries by what became of them. `given` is `kept + removed + creases`.
+/// Edges of boundaries by what became of them. `given` is `kept + removed + creases`, and those on borders come on top.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct EdgeChanges {
     /// Given.
@@ -237,6 +240,8 @@ pub struct EdgeChanges {
     pub doubted: usize,
     /// Given, and kept inside one patch.
     pub creases: usize,
+    /// Given on borders of the mesh or where more than two faces meet, which are boundaries in any case.
+    pub at_borders: usize,
 }
 
 /// How long boundaries are, and how straight.

@@ -39,6 +39,11 @@ pub enum Stage {
     Export,
 }
 
+/// The systems of [`Stage::Score`] that compute scores, all of which are left out where none are needed
+/// ([`crate::Answered`]).
+#[derive(SystemSet, Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct Scoring;
+
 impl Stage {
     /// All stages, in order.
     pub const ALL: [Self; 11] = [

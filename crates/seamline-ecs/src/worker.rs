@@ -14,9 +14,9 @@ use crate::job::{
     Counts, GivenBoundary, InputMarkings, InputMesh, JobFailure, Measures, MeshTopology, Settled,
 };
 use crate::pipeline::Pipeline;
-use crate::plugin::OpenEnds;
+use crate::plugin::{Answered, OpenEnds};
 use crate::results::{Segmentation, StageRecord};
-use crate::stage::Stage;
+use crate::stage::{Scoring, Stage};
 
 /// Why a mesh gave no patches. It ends the job; the worker goes on with the next mesh.
 #[derive(Clone, Debug, Error, PartialEq, Eq)]
@@ -120,6 +120,7 @@ impl Worker {
             self.world.insert_resource(InputMarkings(markings));
         }
         self.world.insert_resource(JobFailure::default());
+        self.world.insert_resource(Answered::default());
         self.world.resource_mut::<Counts>().clear();
         self.world.resource_mut::<Measures>().clear();
         let clock = StageClock {
@@ -206,6 +207,8 @@ fn fresh(pipeline: &Pipeline, progress: &Progress) -> (World, Schedule) {
             None => schedule.add_systems(note.after(stage)),
         };
     }
+    let are_needed = |answered: Res<Answered>| !answered.is_there();
+    schedule.configure_sets(Scoring.in_set(Stage::Score).run_if(are_needed));
     pipeline.install(&mut world, &mut schedule);
     (world, schedule)
 }

@@ -42,6 +42,7 @@ fn adopt(
             GivenBoundary {
                 edges: hard_edges(topology, &angles, weak, strong),
                 origin: GivenAs::HardEdges,
+                at_borders: 0,
             }
         }
         None => {
@@ -56,12 +57,17 @@ fn adopt(
                 GivenBoundary {
                     edges: boundary(topology, &labels),
                     origin: GivenAs::Labels,
+                    at_borders: 0,
                 }
             }
-            Markings::Edges(pairs) => GivenBoundary {
-                edges: adopt_edges(topology, &order, pairs),
-                origin: GivenAs::Edges,
-            },
+            Markings::Edges(pairs) => {
+                let (edges, at_borders) = adopt_edges(topology, &order, pairs);
+                GivenBoundary {
+                    edges,
+                    origin: GivenAs::Edges,
+                    at_borders,
+                }
+            }
         },
     };
     if given.origin != GivenAs::Labels {
@@ -91,8 +97,13 @@ pub fn adopt_labels(mesh: &Mesh, order: &SpatialOrder, of_face: &[u32], labels: 
     }
 }
 
-/// The edges between the given pairs of vertices of the mesh, rising.
-pub fn adopt_edges(topology: &Topology, order: &SpatialOrder, pairs: &[[u32; 2]]) -> Vec<u32> {
+/// The edges with two faces between the given pairs of vertices of the mesh, rising, and how many others there are: on
+/// borders, and where more than two faces meet.
+pub fn adopt_edges(
+    topology: &Topology,
+    order: &SpatialOrder,
+    pairs: &[[u32; 2]],
+) -> (Vec<u32>, usize) {
     let mut row_of_vertex = vec![NONE; order.vertex_of_row.len()];
     for (row, &vertex) in order.vertex_of_row.iter().enumerate() {
         row_of_vertex[vertex as usize] = row as u32;
@@ -102,14 +113,13 @@ pub fn adopt_edges(topology: &Topology, order: &SpatialOrder, pairs: &[[u32; 2]]
         let around = topology.vertex_edges.row(a as usize).iter();
         around.copied().find(|&edge| topology.far_end(edge, a) == b)
     };
-    let mut edges: Vec<u32> = pairs
-        .iter()
-        .filter_map(edge_between)
-        .filter(|&edge| topology.face_pair(edge as usize).is_some())
-        .collect();
+    let mut edges: Vec<u32> = pairs.iter().filter_map(edge_between).collect();
     edges.sort_unstable();
     edges.dedup();
-    edges
+    let all = edges.len();
+    edges.retain(|&edge| topology.face_pair(edge as usize).is_some());
+    let others = all - edges.len();
+    (edges, others)
 }
 
 /// Labels faces alike that hang together without crossing one of the edges, numbered by lowest face.

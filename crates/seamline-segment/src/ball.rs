@@ -5,10 +5,10 @@ use std::collections::BTreeSet;
 
 use glam::{DVec2, DVec3};
 
-use crate::tensor::{Bending, TensorPair};
+use crate::tensor::{Bending, Gathered};
 
 /// The tensor over the ball of `radius` about `vertex`. Zero if no area lies in it.
-pub fn ball_tensor(bending: &Bending, vertex: u32, radius: f64) -> TensorPair {
+pub fn ball_tensor<T: Gathered>(bending: &Bending, vertex: u32, radius: f64) -> T {
     let topology = bending.topology;
     let centre = bending.positions[vertex as usize].0;
     let at = |v: u32| bending.positions[v as usize].0;
@@ -21,7 +21,7 @@ pub fn ball_tensor(bending: &Bending, vertex: u32, radius: f64) -> TensorPair {
         .collect();
     let mut edges = BTreeSet::new();
     let mut open: Vec<u32> = faces.iter().copied().collect();
-    let mut sum = TensorPair::default();
+    let mut sum = T::default();
     let mut area = 0.0;
     while let Some(face) = open.pop() {
         area += clipped_area(topology.triangles[face as usize].map(at), centre, radius);

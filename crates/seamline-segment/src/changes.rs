@@ -20,6 +20,7 @@ pub(crate) fn changes(rows: &LabelledRows, given: Given) -> Changes {
         edges: before,
         contours,
         open_ends: ends,
+        at_borders,
         ..
     } = given;
     let after = boundary(rows.bending.topology, rows.labels);
@@ -69,6 +70,7 @@ pub(crate) fn changes(rows: &LabelledRows, given: Given) -> Changes {
             removed: gone.len(),
             doubted: in_state(ContourState::Doubted).len(),
             creases: creases.len(),
+            at_borders,
         },
         before: measured(before),
         after: measured(&after),

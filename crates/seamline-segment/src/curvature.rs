@@ -12,7 +12,9 @@ use seamline_mesh::Topology;
 use serde::{Deserialize, Serialize};
 
 use crate::eigen::{PrincipalFrame, free_principal_frame, tangent_principal_frame};
-use crate::tensor::{Bending, BendingColumns, TensorForm, TensorPair, vertex_tensors};
+use crate::tensor::{
+    Bending, BendingColumns, Full, Gathered, TensorForm, TensorPair, vertex_tensors,
+};
 
 /// What carries the samples of curvature that are classified.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
@@ -68,7 +70,7 @@ pub(crate) fn systems() -> StageSystems {
 }
 
 /// Fills the curvature columns of all vertices.
-pub(crate) fn measure_vertices(
+fn measure_vertices(
     settings: Res<CurvatureSettings>,
     columns: BendingColumns,
     sharp_vertices: Column<SharpVertex>,
@@ -80,24 +82,41 @@ pub(crate) fn measure_vertices(
     let frames = |pick: fn(&TensorPair) -> &SymmetricTensor| {
         principal_frames(&bending, &sharp_vertices, &tensors, pick)
     };
-    for (to, frame) in full.iter_mut().zip(frames(|t| &t.full)) {
+    write_down(frames(|t| &t.full), &mut full);
+    for (to, frame) in smooth.iter_mut().zip(frames(|t| &t.smooth)) {
+        to.0 = frame.k;
+    }
+}
+
+/// Fills the column the boundary score looks at, and no other.
+pub(crate) fn measure_vertices_for_score(
+    settings: Res<CurvatureSettings>,
+    columns: BendingColumns,
+    sharp_vertices: Column<SharpVertex>,
+    mut full: ColumnMut<VertexCurvature>,
+) {
+    let bending = columns.lend();
+    let tensors: Vec<Full> = vertex_tensors(&bending, settings.tensor, settings.ball_radius);
+    let frames = principal_frames(&bending, &sharp_vertices, &tensors, |it| &it.0);
+    write_down(frames, &mut full);
+}
+
+fn write_down(frames: Vec<PrincipalFrame>, to: &mut [VertexCurvature]) {
+    for (to, frame) in to.iter_mut().zip(frames) {
         *to = VertexCurvature {
             k: frame.k,
             d_min: frame.d_min,
             d_max: frame.d_max,
         };
     }
-    for (to, frame) in smooth.iter_mut().zip(frames(|t| &t.smooth)) {
-        to.0 = frame.k;
-    }
 }
 
 /// Principal frames of all vertices: in the tangent plane where there is one, free at sharp vertices.
-pub(crate) fn principal_frames(
+pub(crate) fn principal_frames<T: Gathered>(
     bending: &Bending,
     sharp: &[SharpVertex],
-    tensors: &[TensorPair],
-    pick: fn(&TensorPair) -> &SymmetricTensor,
+    tensors: &[T],
+    pick: fn(&T) -> &SymmetricTensor,
 ) -> Vec<PrincipalFrame> {
     tensors
         .par_iter()

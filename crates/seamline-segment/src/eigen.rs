@@ -60,7 +60,19 @@ pub fn tangent_principal_frame(tensor: &SymmetricTensor, normal: DVec3) -> Princ
 /// The frame of a tensor by its two eigenvalues greatest in magnitude, for vertices without a tangent
 /// plane.
 pub fn free_principal_frame(tensor: &SymmetricTensor) -> PrincipalFrame {
-    let mut pairs = eigen(tensor);
+    two_greatest::<true>(tensor)
+}
+
+/// The values of [`free_principal_frame`], to the last bit, without the directions.
+pub fn free_principal_values(tensor: &SymmetricTensor) -> Principal {
+    if tensor.0 == [0.0; 6] {
+        return Principal::default();
+    }
+    two_greatest::<false>(tensor).k
+}
+
+fn two_greatest<const VECTORS: bool>(tensor: &SymmetricTensor) -> PrincipalFrame {
+    let mut pairs = eigen::<VECTORS>(tensor);
     pairs.sort_by(|a, b| b.0.abs().total_cmp(&a.0.abs()));
     PrincipalFrame::sorted(pairs[0], pairs[1])
 }
@@ -73,8 +85,10 @@ fn apply(&SymmetricTensor([xx, yy, zz, xy, xz, yz]): &SymmetricTensor, v: DVec3)
     )
 }
 
-/// Eigenvalues and unit eigenvectors by Jacobi rotations.
-fn eigen(&SymmetricTensor([xx, yy, zz, xy, xz, yz]): &SymmetricTensor) -> [(f64, DVec3); 3] {
+/// Eigenvalues, and unit eigenvectors where `VECTORS` is set, by Jacobi rotations.
+fn eigen<const VECTORS: bool>(
+    &SymmetricTensor([xx, yy, zz, xy, xz, yz]): &SymmetricTensor,
+) -> [(f64, DVec3); 3] {
     let mut a = [[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]];
     let mut vectors = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
     let scale: f64 = a.as_flattened().iter().map(|x| x.abs()).fold(0.0, f64::max);
@@ -100,10 +114,12 @@ fn eigen(&SymmetricTensor([xx, yy, zz, xy, xz, yz]): &SymmetricTensor) -> [(f64,
             let (row_p, row_q) = (a[p], a[q]);
             a[p] = [0, 1, 2].map(|k| c * row_p[k] - s * row_q[k]);
             a[q] = [0, 1, 2].map(|k| s * row_p[k] + c * row_q[k]);
-            for row in &mut vectors {
-                let (vp, vq) = (row[p], row[q]);
-                row[p] = c * vp - s * vq;
-                row[q] = s * vp + c * vq;
+            if VECTORS {
+                for row in &mut vectors {
+                    let (vp, vq) = (row[p], row[q]);
+                    row[p] = c * vp - s * vq;
+                    row[q] = s * vp + c * vq;
+                }
             }
         }
     }
@@ -140,6 +156,12 @@ mod tests {
 
     proptest! {
         #[test]
+        fn values_are_the_same_to_the_last_bit_with_and_without_directions(t in prop::array::uniform6(-5.0f64..5.0)) {
+            let tensor = SymmetricTensor(t);
+            prop_assert_eq!(free_principal_values(&tensor), free_principal_frame(&tensor).k);
+        }
+
+        #[test]
         fn eigenvalues_come_back_from_their_tensor(
             values in prop::array::uniform3(-5.0f64..5.0),
             axis in prop::array::uniform3(-1.0f64..1.0),
@@ -148,7 +170,7 @@ mod tests {
             prop_assume!(x.length() > 0.1);
             let x = x.normalize();
             let (y, z) = x.any_orthonormal_pair();
-            let mut found = eigen(&tensor_of([(values[0], x), (values[1], y), (values[2], z)])).map(|p| p.0);
+            let mut found = eigen::<true>(&tensor_of([(values[0], x), (values[1], y), (values[2], z)])).map(|p| p.0);
             let mut expected = values;
             found.sort_by(f64::total_cmp);
             expected.sort_by(f64::total_cmp);

@@ -15,13 +15,15 @@ use seamline_mesh::{EdgeKind, Findings, Mesh, Topology, examine};
 use crate::boundaries::chains;
 use crate::changes::{changes, mesh_edge};
 use crate::curvature::principal_frames;
-use crate::eigen::free_principal_frame;
+use crate::eigen::free_principal_values;
 use crate::face_patches::{FacePatches, number_patches};
 use crate::refine::{RefinedRows, refine_boundaries};
 use crate::refined::refined_mesh;
 use crate::spatial_order::SpatialOrder;
 use crate::surfaces::{SurfaceSettings, patch_surfaces};
-use crate::tensor::{Bending, BendingColumns, TensorForm, face_tensors, over, vertex_tensors};
+use crate::tensor::{
+    Bending, BendingColumns, Smooth, TensorForm, face_tensors, over, vertex_tensors,
+};
 
 /// With `refines` boundaries may run through triangles.
 pub(crate) fn systems(refines: bool) -> StageSystems {
@@ -66,6 +68,7 @@ fn collect(
         curvatures: &curvatures,
         labels: &labels,
         length: scale.length,
+        turned: order.turned,
         given: given.lend(),
     };
     let found = looked_for.enabled.then(|| {
@@ -97,6 +100,7 @@ impl GivenColumns<'_, '_> {
     fn lend(&self) -> Option<Given<'_>> {
         (*self.kind == PipelineKind::Rectify).then_some(Given {
             edges: &self.boundary.edges,
+            at_borders: self.boundary.at_borders,
             contours: &self.contours,
             open_ends: &self.open_ends.0,
             refined: (!self.refined.triangles.is_empty()).then_some(&*self.refined),
@@ -109,6 +113,8 @@ impl GivenColumns<'_, '_> {
 pub struct Given<'a> {
     /// The edges they ran along, rising.
     pub edges: &'a [u32],
+    /// How many edges were given besides, on borders and non-manifold edges.
+    pub at_borders: usize,
     /// What has become of each edge of the mesh.
     pub contours: &'a [ContourState],
     /// What has become of the open ends.
@@ -131,6 +137,8 @@ pub struct LabelledRows<'a> {
     pub labels: &'a [FaceLabel],
     /// The scale ([`MeshScale`]).
     pub length: f64,
+    /// Are there triangles whose corners run the other way in the mesh itself ([`crate::turned_faces`])?
+    pub turned: bool,
     /// The boundaries given, where they were to be rectified.
     pub given: Option<Given<'a>>,
 }
@@ -148,14 +156,14 @@ pub fn describe(mesh: &Mesh, rows: &LabelledRows, patches: FacePatches) -> Segme
         refined: refined.map(|refined| refined_mesh(mesh, rows, refined, &vertices)),
         vertices,
         changes: rows.given.map(|given| changes(rows, given)),
-        findings: findings(mesh, rows.bending.topology),
+        findings: findings(mesh, rows.bending.topology, rows.turned),
         stages: Vec::new(),
     }
 }
 
-/// What the mesh is as it came, triangles that are there twice included.
-fn findings(mesh: &Mesh, rows: &Topology) -> Findings {
-    if rows.triangles.len() == mesh.triangles.len() {
+/// What the mesh is as it came, triangles that are there twice or turned inside out included.
+fn findings(mesh: &Mesh, rows: &Topology, turned: bool) -> Findings {
+    if rows.triangles.len() == mesh.triangles.len() && !turned {
         return examine(mesh, rows);
     }
     examine(
@@ -188,7 +196,7 @@ pub fn face_curvatures(
     let carried = facet_of_face.first().is_some_and(|facet| facet.0 != NONE);
     if carried {
         let signed = |sample: &Sample| {
-            let sign = free_principal_frame(&sample.tensor).k.k_min.signum();
+            let sign = free_principal_values(&sample.tensor).k_min.signum();
             let [k_min, k_max] = sample.curvature;
             Principal {
                 k_min: k_min * sign,
@@ -201,19 +209,17 @@ pub fn face_curvatures(
             .map(|facet| of_facet[facet.0 as usize])
             .collect();
     }
-    let tensors = face_tensors(bending);
+    let tensors: Vec<Smooth> = face_tensors(bending);
     let own = tensors.par_iter().zip(bending.shapes).with_min_len(2048);
-    own.map(|(tensor, shape)| free_principal_frame(&over(&tensor.smooth, shape.area)).k)
+    own.map(|(tensor, shape)| free_principal_values(&over(&tensor.0, shape.area)))
         .collect()
 }
 
 /// Curvature at every vertex for display, by the `ring` form with sharp edges left out: exact on prisms,
 /// and not blurred by creases.
 fn vertex_quantities(rows: &LabelledRows) -> VertexQuantities {
-    let tensors = vertex_tensors(&rows.bending, TensorForm::Ring, 0.0);
-    let frames = principal_frames(&rows.bending, rows.sharp_vertices, &tensors, |pair| {
-        &pair.smooth
-    });
+    let tensors: Vec<Smooth> = vertex_tensors(&rows.bending, TensorForm::Ring, 0.0);
+    let frames = principal_frames(&rows.bending, rows.sharp_vertices, &tensors, |it| &it.0);
     let count = frames.len();
     let mut quantities = VertexQuantities {
         k_min: vec![0.0; count],

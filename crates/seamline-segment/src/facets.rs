@@ -16,7 +16,7 @@ use seamline_mesh::{Sets, Topology};
 use serde::{Deserialize, Serialize};
 
 use crate::eigen::tangent_principal_frame;
-use crate::tensor::{Bending, BendingColumns, add_scaled, face_tensors, over};
+use crate::tensor::{Bending, BendingColumns, Smooth, add_scaled, face_tensors, over};
 
 /// The `[facets]` table: curvature on facets.
 #[derive(Resource, Clone, Debug, Serialize, Deserialize, JsonSchema)]
@@ -102,11 +102,11 @@ pub fn find_facets(bending: &Bending, flat: f64) -> Facets {
     }
     let (of_face, count) = sets.numbered();
 
-    let tensors = face_tensors(bending);
+    let tensors: Vec<Smooth> = face_tensors(bending);
     let mut sums = vec![(SymmetricTensor::default(), DVec3::ZERO, 0.0); count];
     for ((&facet, tensor), shape) in of_face.iter().zip(&tensors).zip(bending.shapes) {
         let (sum, normal, area) = &mut sums[facet as usize];
-        add_scaled(sum, &tensor.smooth, 1.0);
+        add_scaled(sum, &tensor.0, 1.0);
         *normal += shape.normal * shape.area;
         *area += shape.area;
     }

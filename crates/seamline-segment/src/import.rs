@@ -13,6 +13,7 @@ use seamline_ecs::{
 use seamline_mesh::{Mesh, Topology};
 use serde::{Deserialize, Serialize};
 
+use crate::orient::turned_faces;
 use crate::spatial_order::SpatialOrder;
 
 /// The `[mesh]` table: how a mesh is read and scaled.
@@ -77,7 +78,7 @@ fn import(world: &mut World) -> Result<(), StepError> {
     }
     let Laid {
         scale,
-        order,
+        mut order,
         positions,
         triangles,
     } = lay_out(&mesh, by).ok_or_else(|| {
@@ -86,7 +87,15 @@ fn import(world: &mut World) -> Result<(), StepError> {
             "the mesh needs one triangle at least whose corners do not lie on one line",
         )
     })?;
-    let topology = Topology::build(positions.len(), triangles);
+    let mut topology = Topology::build(positions.len(), triangles);
+    let turned = turned_faces(&topology, &positions);
+    if !turned.is_empty() {
+        for &face in &turned {
+            topology.triangles[face as usize].swap(1, 2);
+        }
+        topology = Topology::build(positions.len(), topology.triangles);
+        order.turned = true;
+    }
     let [vertices, faces, edges] = topology.counts();
     rows::resize::<Vertices>(world, vertices);
     rows::resize::<Faces>(world, faces);
@@ -97,6 +106,9 @@ fn import(world: &mut World) -> Result<(), StepError> {
     counts.note(Stage::Import, "vertices", vertices);
     counts.note(Stage::Import, "triangles", faces);
     counts.note(Stage::Import, "edges", edges);
+    if !turned.is_empty() {
+        counts.note(Stage::Import, "turned_triangles", turned.len());
+    }
     world.insert_resource(scale);
     world.insert_resource(order);
     world.insert_resource(MeshTopology(topology));

@@ -19,6 +19,7 @@ mod grow;
 mod hard_edges;
 mod import;
 mod merge;
+mod orient;
 mod reduction;
 mod refine;
 mod refined;
@@ -50,6 +51,7 @@ pub use grow::{Grown, grow_facets, grow_pure_triangles};
 pub use hard_edges::{HardEdgeSettings, hard_edges};
 pub use import::{Laid, MeshSettings, ScaleBy, lay_out};
 pub use merge::{MergeSettings, RegionDistance};
+pub use orient::turned_faces;
 pub use reduction::{Reduced, reduce};
 pub use refine::{RefineSettings, RefinedRows, refine};
 pub use region_graph::{Link, Merged, RegionGraph};
@@ -57,7 +59,10 @@ pub use score::{ScoreSettings, angle_score, curvature_score, facet_scores, verte
 pub use sharp::{SharpSettings, dihedral_angles, sharp_edges, sharp_vertices};
 pub use spatial_order::SpatialOrder;
 pub use surfaces::{SurfaceSettings, patch_surfaces};
-pub use tensor::{Bending, TensorForm, TensorPair, edge_tensor, face_tensors, vertex_tensors};
+pub use tensor::{
+    Bending, Full, Gathered, Smooth, TensorForm, TensorPair, edge_tensor, face_tensors,
+    vertex_tensors,
+};
 pub use threshold::{Threshold, widest_gap};
 
 /// The built-in steps and their tables of settings.

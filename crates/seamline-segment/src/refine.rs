@@ -335,7 +335,8 @@ pub(crate) fn refined_at(
     }
 }
 
-/// Each face gets the label of most of its area; of equals the lower.
+/// Each face gets the label of most of its area; of equals the lower. The last face of a label keeps it: no patch is cut
+/// away.
 fn most_of_each(
     positions: &[Position],
     refined: &RefinedRows,
@@ -343,6 +344,10 @@ fn most_of_each(
     labels: &mut [FaceLabel],
 ) {
     let at = |v: u32| refined_at(positions, refined, topology, v);
+    let mut faces_of: BTreeMap<u32, usize> = BTreeMap::new();
+    for label in labels.iter() {
+        *faces_of.entry(label.0).or_default() += 1;
+    }
     for pieces in refined.triangles.chunk_by(|a, b| a.1 == b.1) {
         let mut areas: BTreeMap<u32, f64> = BTreeMap::new();
         for (corners, _, label) in pieces {
@@ -353,7 +358,13 @@ fn most_of_each(
             .iter()
             .max_by(|a, b| a.1.total_cmp(b.1).then(b.0.cmp(a.0)));
         if let Some((&label, _)) = most {
-            labels[pieces[0].1 as usize] = FaceLabel(label);
+            let face = &mut labels[pieces[0].1 as usize].0;
+            if faces_of.get(face) == Some(&1) {
+                continue;
+            }
+            *faces_of.entry(*face).or_default() -= 1;
+            *faces_of.entry(label).or_default() += 1;
+            *face = label;
         }
     }
 }
@@ -456,6 +467,27 @@ mod tests {
                 .iter()
                 .all(|t| t.2 == labels[t.1 as usize])
         );
+    }
+
+    #[test]
+    fn a_patch_of_one_face_keeps_it() {
+        let (topology, positions, mut labels) = sheet();
+        let whole = FaceLabel(0);
+        labels.fill(whole);
+        let alone = labels.len() / 2;
+        labels[alone] = FaceLabel(1);
+        let refined = RefinedRows {
+            triangles: topology
+                .triangles
+                .iter()
+                .enumerate()
+                .map(|(face, &corners)| (corners, face as u32, whole))
+                .collect(),
+            ..RefinedRows::default()
+        };
+        most_of_each(&positions, &refined, &topology, &mut labels);
+        assert_eq!(labels[alone], FaceLabel(1));
+        assert_eq!(labels[alone + 1], whole);
     }
 
     #[test]

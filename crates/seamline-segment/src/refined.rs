@@ -1,15 +1,22 @@
 //! The refined mesh by the mesh's own vertices and in its own unit.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use seamline_ecs::components::NONE;
 use seamline_ecs::results::{RefinedMesh, VertexQuantities};
 use seamline_mesh::{Format, Mesh, PolygonMesh, Topology};
 
 use crate::boundaries::chains;
-use crate::changes::measure;
+use crate::changes::{measure, mesh_edge};
 use crate::export::LabelledRows;
 use crate::refine::RefinedRows;
+
+/// Edges by the pair of patches they part.
+type Curves = BTreeMap<[u32; 2], Vec<[u32; 2]>>;
+
+fn rising([a, b]: [u32; 2]) -> [u32; 2] {
+    [a.min(b), a.max(b)]
+}
 
 /// The mesh with the new vertices after its own.
 pub(crate) fn refined_mesh(
@@ -45,26 +52,33 @@ pub(crate) fn refined_mesh(
         .map(|(corners, ..)| corners.map(vertex))
         .collect();
     let topology = Topology::build(positions.len(), triangles.clone());
-    let mut curves: BTreeMap<[u32; 2], Vec<[u32; 2]>> = BTreeMap::new();
+    let given = rows.given.map_or(&[][..], |given| given.edges);
+    let given: BTreeSet<[u32; 2]> = given
+        .iter()
+        .map(|&edge| rising(mesh_edge(rows, edge)))
+        .collect();
+    let [mut kept, mut added] = [Curves::new(), Curves::new()];
+    let mut all: Vec<[u32; 2]> = Vec::new();
     for edge in 0..topology.edge_faces.len() {
         if let Some(faces) = topology.face_pair(edge) {
-            let [a, b] = faces.map(|face| patches[face as usize]);
-            if a != b {
-                let pair = [a.min(b), a.max(b)];
-                curves
-                    .entry(pair)
-                    .or_default()
-                    .push(topology.edge_vertices[edge]);
+            let patches = faces.map(|face| patches[face as usize]);
+            if patches[0] != patches[1] {
+                let ends = topology.edge_vertices[edge];
+                let curves = if given.contains(&ends) {
+                    &mut kept
+                } else {
+                    &mut added
+                };
+                curves.entry(rising(patches)).or_default().push(ends);
+                all.push(ends);
             }
         }
     }
-    let all: Vec<[u32; 2]> = curves.values().flatten().copied().collect();
+    let curves = |of: Curves| of.into_iter().map(|(pair, edges)| (pair, chains(&edges)));
     RefinedMesh {
         boundary: measure(&topology, &all, |v| positions[v as usize], 1.0),
-        curves: curves
-            .into_iter()
-            .map(|(pair, edges)| (pair, chains(&edges)))
-            .collect(),
+        kept: curves(kept).collect(),
+        added: curves(added).collect(),
         vertices_added: positions.len() - own,
         polygons: PolygonMesh::from_triangles(Format::Memory, positions, &triangles),
         patches,

@@ -7,11 +7,11 @@ use rayon::prelude::*;
 use schemars::JsonSchema;
 use seamline_ecs::components::*;
 use seamline_ecs::settings::{OutOfRange, Profile, StepSettings};
-use seamline_ecs::{Column, ColumnMut, MeshTopology, Stage, StageSystems};
+use seamline_ecs::{Column, ColumnMut, MeshTopology, Scoring, StageSystems};
 use seamline_mesh::Topology;
 use serde::{Deserialize, Serialize};
 
-use crate::curvature::measure_vertices;
+use crate::curvature::measure_vertices_for_score;
 use crate::eigen::tangent_principal_frame;
 use crate::surfaces::settle_scores;
 
@@ -52,15 +52,13 @@ const UNDECIDED_DEG: f64 = 45.0;
 
 pub(crate) fn vertex_systems() -> StageSystems {
     // Measured again, since the mesh is no longer enriched.
-    (measure_vertices, score_by_vertices)
+    (measure_vertices_for_score, score_by_vertices)
         .chain()
-        .in_set(Stage::Score)
+        .in_set(Scoring)
 }
 
 pub(crate) fn facet_systems() -> StageSystems {
-    (score_by_facets, settle_scores)
-        .chain()
-        .in_set(Stage::Score)
+    (score_by_facets, settle_scores).chain().in_set(Scoring)
 }
 
 fn score_by_vertices(

@@ -19,6 +19,8 @@ pub struct SpatialOrder {
     pub vertex_of_row: Vec<u32>,
     /// The face row of each triangle of the mesh; triangles on the same three vertices share one.
     pub row_of_triangle: Vec<u32>,
+    /// Were there triangles turned inside out, whose corners run the other way in their rows?
+    pub turned: bool,
 }
 
 impl SpatialOrder {
@@ -63,6 +65,7 @@ impl SpatialOrder {
             Self {
                 vertex_of_row,
                 row_of_triangle,
+                turned: false,
             },
             rows,
         )

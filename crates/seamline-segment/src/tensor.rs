@@ -112,6 +112,24 @@ impl Bending<'_> {
     }
 }
 
+/// What is gathered of the edges round an element: all of them, those that are not sharp, or both.
+pub trait Gathered: Clone + Copy + Default + Send + Sync {
+    /// `self += factor * edge`.
+    fn add_edge(&mut self, bending: &Bending, edge: u32, factor: f64);
+    /// `self += other`.
+    fn add(&mut self, other: &Self);
+    /// Over an area; zero where there is none.
+    fn over(&self, divisor: f64) -> Self;
+}
+
+/// A tensor with every edge counted.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Full(pub SymmetricTensor);
+
+/// A tensor with the sharp edges left out.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Smooth(pub SymmetricTensor);
+
 /// A tensor with every edge counted, and one with the sharp edges left out.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct TensorPair {
@@ -121,8 +139,38 @@ pub struct TensorPair {
     pub smooth: SymmetricTensor,
 }
 
-impl TensorPair {
-    pub(crate) fn add_edge(&mut self, bending: &Bending, edge: u32, factor: f64) {
+impl Gathered for Full {
+    fn add_edge(&mut self, bending: &Bending, edge: u32, factor: f64) {
+        add_scaled(&mut self.0, &bending.edge(edge), factor);
+    }
+
+    fn add(&mut self, other: &Self) {
+        add_scaled(&mut self.0, &other.0, 1.0);
+    }
+
+    fn over(&self, divisor: f64) -> Self {
+        Self(over(&self.0, divisor))
+    }
+}
+
+impl Gathered for Smooth {
+    fn add_edge(&mut self, bending: &Bending, edge: u32, factor: f64) {
+        if !bending.sharp[edge as usize].0 {
+            add_scaled(&mut self.0, &bending.edge(edge), factor);
+        }
+    }
+
+    fn add(&mut self, other: &Self) {
+        add_scaled(&mut self.0, &other.0, 1.0);
+    }
+
+    fn over(&self, divisor: f64) -> Self {
+        Self(over(&self.0, divisor))
+    }
+}
+
+impl Gathered for TensorPair {
+    fn add_edge(&mut self, bending: &Bending, edge: u32, factor: f64) {
         let tensor = bending.edge(edge);
         add_scaled(&mut self.full, &tensor, factor);
         if !bending.sharp[edge as usize].0 {
@@ -130,7 +178,12 @@ impl TensorPair {
         }
     }
 
-    pub(crate) fn over(&self, divisor: f64) -> Self {
+    fn add(&mut self, other: &Self) {
+        add_scaled(&mut self.full, &other.full, 1.0);
+        add_scaled(&mut self.smooth, &other.smooth, 1.0);
+    }
+
+    fn over(&self, divisor: f64) -> Self {
         Self {
             full: over(&self.full, divisor),
             smooth: over(&self.smooth, divisor),
@@ -139,11 +192,11 @@ impl TensorPair {
 }
 
 /// Integrated tensor `F_t` of every face: half of each of its edges, not yet over the area.
-pub fn face_tensors(bending: &Bending) -> Vec<TensorPair> {
+pub fn face_tensors<T: Gathered>(bending: &Bending) -> Vec<T> {
     let faces = bending.topology.face_edges.par_iter().with_min_len(4096);
     faces
         .map(|edges| {
-            let mut sum = TensorPair::default();
+            let mut sum = T::default();
             for &edge in edges {
                 sum.add_edge(bending, edge, 0.5);
             }
@@ -156,8 +209,12 @@ pub fn face_tensors(bending: &Bending) -> Vec<TensorPair> {
 /// without area round it gets zero.
 ///
 /// Cost: linear; for balls, by the number of faces in each ball.
-pub fn vertex_tensors(bending: &Bending, form: TensorForm, ball_radius: f64) -> Vec<TensorPair> {
-    let face_tensors = if form == TensorForm::Ring {
+pub fn vertex_tensors<T: Gathered>(
+    bending: &Bending,
+    form: TensorForm,
+    ball_radius: f64,
+) -> Vec<T> {
+    let face_tensors: Vec<T> = if form == TensorForm::Ring {
         face_tensors(bending)
     } else {
         Vec::new()
@@ -171,7 +228,7 @@ pub fn vertex_tensors(bending: &Bending, form: TensorForm, ball_radius: f64) -> 
             .sum()
     };
     let spokes = |v: usize| {
-        let mut sum = TensorPair::default();
+        let mut sum = T::default();
         for &edge in bending.topology.vertex_edges.row(v) {
             sum.add_edge(bending, edge, 1.0);
         }
@@ -189,10 +246,9 @@ pub fn vertex_tensors(bending: &Bending, form: TensorForm, ball_radius: f64) -> 
         TensorForm::Ring => vertices
             .with_min_len(2048)
             .map(|v| {
-                let mut sum = TensorPair::default();
+                let mut sum = T::default();
                 for &face in bending.topology.vertex_faces.row(v) {
-                    add_scaled(&mut sum.full, &face_tensors[face as usize].full, 1.0);
-                    add_scaled(&mut sum.smooth, &face_tensors[face as usize].smooth, 1.0);
+                    sum.add(&face_tensors[face as usize]);
                 }
                 sum.over(area(v))
             })

@@ -8,8 +8,8 @@ use seamline_ecs::components::{DihedralAngle, FaceShape, Position, SharpEdge};
 use seamline_mesh::shapes::{self, Diagonals, Shape};
 use seamline_mesh::{Topology, weld};
 use seamline_segment::{
-    Bending, PrincipalFrame, TensorForm, dihedral_angles, face_shapes, face_tensors, find_facets,
-    tangent_principal_frame, vertex_tensors,
+    Bending, Full, PrincipalFrame, TensorForm, TensorPair, dihedral_angles, face_shapes,
+    face_tensors, find_facets, tangent_principal_frame, vertex_tensors,
 };
 
 /// A shape measured, with no edge taken as sharp.
@@ -79,7 +79,7 @@ impl Measured {
         which: impl Fn(DVec3) -> bool,
         normal: impl Fn(DVec3) -> DVec3,
     ) -> Vec<PrincipalFrame> {
-        let tensors = vertex_tensors(&self.bending(), form, 0.3);
+        let tensors: Vec<TensorPair> = vertex_tensors(&self.bending(), form, 0.3);
         let vertices = self
             .positions
             .iter()
@@ -138,7 +138,7 @@ proptest! {
         let solid = shapes::rounded_box(DVec3::from_array(size), [radius, 0.0, radius, 0.0], 5);
         let measured = Measured::of(&solid);
         let trace: f64 =
-            face_tensors(&measured.bending()).iter().map(|t| t.full.0[..3].iter().sum::<f64>()).sum();
+            face_tensors::<Full>(&measured.bending()).iter().map(|t| t.0.0[..3].iter().sum::<f64>()).sum();
         prop_assert!((trace - measured.total_bending()).abs() < 1e-9);
     }
 }

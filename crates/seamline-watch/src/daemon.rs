@@ -12,9 +12,10 @@ mod job;
 mod lookout;
 mod reload;
 
+use std::collections::{HashMap, HashSet};
 use std::fs;
 use std::io;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use crossbeam_channel::Receiver;
@@ -29,10 +30,10 @@ use crate::lock::{InstanceLock, LockError};
 use crate::metrics::Metrics;
 use crate::mounts::trusts_events;
 use crate::outputs::sweep_leftovers;
-use crate::pairs::{markings_in, markings_of};
+use crate::pairs::{markings_in, markings_of, stem};
 use crate::setup::Setup;
 use crate::shown;
-use crate::tracker::FileFact;
+use crate::tracker::{FileFact, Stamp};
 use crate::{VERSION, service};
 use books::Books;
 use crew::{Crew, StartError};
@@ -213,23 +214,35 @@ fn check_presence(config: &Config) -> Result<(), WatchError> {
     }
 }
 
-/// The files that have not ended in the state they are in, as far as there is a ledger to tell.
+/// The files that have not ended in the state they are in, as far as there is a ledger to tell. Markings are told with
+/// their mesh, and by themselves where none is there.
 fn still_to_be_cut(files: Vec<FileFact>, setup: &Arc<Setup>) -> Vec<PathBuf> {
     let ledger = Reader::open(&setup.config.state).ok();
+    let by_path: HashMap<&Path, Stamp> =
+        files.iter().map(|file| (&*file.path, file.stamp)).collect();
+    let is_of_pair = |path: &Path| setup.has_pairs() && setup.is_of_pair(path);
     let has_ended = |file: &FileFact| {
+        let Some(ledger) = &ledger else { return false };
         let settings = &setup.for_file(&file.path).settings_hash;
-        let known = ledger.as_ref();
-        known.is_some_and(|ledger| {
-            let markings = files.iter().find(|other| {
-                setup.is_of_pair(&file.path) && markings_of(&file.path).contains(&other.path)
-            });
-            let stamp = job::stamp_word(file.stamp, markings.map(|markings| markings.stamp));
-            let ended = ledger.has_ended(&file.path, &stamp, settings);
-            ended.unwrap_or(false)
-        })
+        let markings = markings_of(&file.path)
+            .into_iter()
+            .filter(|_| is_of_pair(&file.path))
+            .find_map(|path| by_path.get(&*path).copied());
+        let stamp = job::stamp_word(file.stamp, markings);
+        let ended = ledger.has_ended(&file.path, &stamp, settings);
+        ended.unwrap_or(false)
     };
-    let is_mesh = |file: &&FileFact| markings_in(&file.path).is_none();
-    let open = files.iter().filter(is_mesh).filter(|file| !has_ended(file));
+    let stems: HashSet<PathBuf> = files
+        .iter()
+        .filter(|file| markings_in(&file.path).is_none())
+        .map(|file| stem(&file.path))
+        .collect();
+    let is_asked_for = |file: &&FileFact| {
+        markings_in(&file.path).is_none()
+            || (is_of_pair(&file.path) && !stems.contains(&stem(&file.path)))
+    };
+    let open = files.iter().filter(is_asked_for);
+    let open = open.filter(|file| !has_ended(file));
     open.map(|file| file.path.clone()).collect()
 }
 

@@ -251,24 +251,29 @@ fn write_one(
 /// The curves of each pair of patches. Where boundaries were given, those that were kept are `old` and those that were
 /// added `new`; what was removed and what lies inside one patch are groups of their own.
 fn curve_groups(segmentation: &Segmentation) -> Vec<CurveGroup<'_>> {
-    if let Some(refined) = &segmentation.refined {
-        let curves = refined.curves.iter();
-        return curves
-            .map(|(patches, polylines)| group_of(*patches, "", polylines))
-            .collect();
-    }
+    let boundaries = segmentation.boundaries.iter();
     let Some(changes) = &segmentation.changes else {
-        let boundaries = segmentation.boundaries.iter();
         return boundaries
             .map(|boundary| group_of(boundary.patches, "", &boundary.polylines))
             .collect();
     };
-    let of_patches = segmentation.boundaries.iter().flat_map(|boundary| {
-        [
-            group_of(boundary.patches, " old", &boundary.polylines),
-            group_of(boundary.patches, " new", &boundary.added),
-        ]
-    });
+    let of_patches: Vec<CurveGroup<'_>> = match &segmentation.refined {
+        Some(refined) => {
+            let kept = refined.kept.iter().map(|curves| (curves, " old"));
+            let added = refined.added.iter().map(|curves| (curves, " new"));
+            kept.chain(added)
+                .map(|((patches, polylines), mark)| group_of(*patches, mark, polylines))
+                .collect()
+        }
+        None => boundaries
+            .flat_map(|boundary| {
+                [
+                    group_of(boundary.patches, " old", &boundary.polylines),
+                    group_of(boundary.patches, " new", &boundary.added),
+                ]
+            })
+            .collect(),
+    };
     let others = [
         ("removed", &changes.removed_curves),
         ("crease", &changes.crease_curves),
@@ -277,7 +282,7 @@ fn curve_groups(segmentation: &Segmentation) -> Vec<CurveGroup<'_>> {
         names: name.to_owned(),
         polylines,
     });
-    let all = of_patches.chain(others);
+    let all = of_patches.into_iter().chain(others);
     all.filter(|group| !group.polylines.is_empty()).collect()
 }
 

@@ -79,6 +79,17 @@ pub enum Complete {
     },
     /// A half whose other half has not come.
     Lone(ReadyFile),
+    /// A mesh beside which lie both labels and edges.
+    Crowded(ReadyFile),
+}
+
+/// Why a half is not worked on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Unpaired {
+    /// Its other half has not come.
+    Lone,
+    /// It has more than one other half.
+    Crowded,
 }
 
 #[derive(Clone, Debug)]
@@ -92,7 +103,7 @@ struct Half {
 #[derive(Clone, Debug, Default)]
 struct Pair {
     meshes: BTreeMap<PathBuf, Half>,
-    markings: Option<Half>,
+    markings: BTreeMap<PathBuf, Half>,
 }
 
 /// Follows the halves of pairs, once each of them holds still by itself, and gives them out together.
@@ -104,7 +115,7 @@ pub struct Pairs {
 impl Pairs {
     /// Takes in halves that have become ready and gives what has become complete.
     ///
-    /// A pair is given when both halves hold still, and again when either has come to rest in another state. A half
+    /// A mesh with two kinds of markings is given as such. A pair is given when both halves hold still, and again when either has come to rest in another state. A half
     /// alone is given after `max_wait`, or at once if `nothing_comes`. `holds` tells whether a file is still in the state
     /// in which it became ready; one that is not waits to become ready anew, or is gone.
     pub fn step(
@@ -126,7 +137,7 @@ impl Pairs {
             };
             if is_markings {
                 pair.meshes.values_mut().for_each(|mesh| mesh.given = false);
-                pair.markings = Some(half);
+                pair.markings.insert(path, half);
             } else {
                 pair.meshes.insert(path, half);
             }
@@ -134,34 +145,42 @@ impl Pairs {
         let mut complete = Vec::new();
         for pair in self.by_stem.values_mut() {
             pair.meshes.retain(|_, mesh| holds(&mesh.file));
-            pair.markings = pair.markings.take().filter(|half| holds(&half.file));
+            pair.markings.retain(|_, half| holds(&half.file));
             let is_over = |half: &Half| {
                 nothing_comes
                     || now.saturating_duration_since(half.since) >= max_wait(&half.file.path)
             };
             for mesh in pair.meshes.values_mut().filter(|mesh| !mesh.given) {
-                if let Some(markings) = &mut pair.markings {
-                    markings.given = true;
-                    mesh.given = true;
-                    complete.push(Complete::Pair {
-                        mesh: mesh.file.clone(),
-                        markings: markings.file.clone(),
-                    });
-                } else if is_over(mesh) {
-                    mesh.given = true;
-                    complete.push(Complete::Lone(mesh.file.clone()));
+                let file = mesh.file.clone();
+                let mut beside = pair.markings.values_mut();
+                match (beside.next(), beside.next()) {
+                    (None, _) if is_over(mesh) => complete.push(Complete::Lone(file)),
+                    (None, _) => continue,
+                    (Some(markings), None) => {
+                        markings.given = true;
+                        complete.push(Complete::Pair {
+                            mesh: file,
+                            markings: markings.file.clone(),
+                        });
+                    }
+                    // The markings stay where they are: once one of them is taken away, the other serves.
+                    (Some(one), Some(other)) => {
+                        one.given = true;
+                        other.given = true;
+                        complete.push(Complete::Crowded(file));
+                    }
                 }
+                mesh.given = true;
             }
-            if let Some(markings) = &mut pair.markings
-                && !markings.given
-                && is_over(markings)
-            {
-                markings.given = true;
-                complete.push(Complete::Lone(markings.file.clone()));
+            for markings in pair.markings.values_mut() {
+                if !markings.given && is_over(markings) {
+                    markings.given = true;
+                    complete.push(Complete::Lone(markings.file.clone()));
+                }
             }
         }
         self.by_stem
-            .retain(|_, pair| !pair.meshes.is_empty() || pair.markings.is_some());
+            .retain(|_, pair| !pair.meshes.is_empty() || !pair.markings.is_empty());
         complete
     }
 }

@@ -28,8 +28,8 @@ pub struct Setup {
     pub enriched: bool,
     /// Is half of what is worked on given by another tool ([`crate::pairs`])?
     pub needs_markings: bool,
-    /// The pipelines of files that a rule takes.
-    rules: Vec<(Patterns, Arc<Pipeline>)>,
+    /// What files that a rule takes are cut with: the same with another pipeline.
+    rules: Vec<(Patterns, Arc<Setup>)>,
 }
 
 impl Setup {
@@ -69,14 +69,23 @@ impl Setup {
     /// Has the files that a pattern takes, by their path below the watched folder, go through another pipeline. The
     /// first that takes a file holds.
     pub fn with_rules(mut self, rules: Vec<(Patterns, Arc<Pipeline>)>) -> Self {
-        self.rules = rules;
+        let with = |pipeline| {
+            Arc::new(Self::within(
+                self.config.clone(),
+                pipeline,
+                self.memory_limit_bytes,
+            ))
+        };
+        let rules = rules.into_iter();
+        self.rules = rules
+            .map(|(files, pipeline)| (files, with(pipeline)))
+            .collect();
         self
     }
 
     /// Are there files that need markings?
-    pub fn has_pairs(self: &Arc<Self>) -> bool {
-        let of_rules = self.rules.iter().map(|(_, pipeline)| self.with(pipeline));
-        self.needs_markings || of_rules.into_iter().any(|setup| setup.needs_markings)
+    pub fn has_pairs(&self) -> bool {
+        self.needs_markings || self.rules.iter().any(|(_, setup)| setup.needs_markings)
     }
 
     /// Is a file half of a pair: a mesh that needs markings, or the markings of one?
@@ -89,14 +98,6 @@ impl Setup {
         }
     }
 
-    fn with(&self, pipeline: &Arc<Pipeline>) -> Self {
-        Self::within(
-            self.config.clone(),
-            Arc::clone(pipeline),
-            self.memory_limit_bytes,
-        )
-    }
-
     /// What a file is cut with: this, or the same with the pipeline of the rule that takes it.
     pub fn for_file(self: &Arc<Self>, path: &Path) -> Arc<Self> {
         let below = self
@@ -106,7 +107,7 @@ impl Setup {
         let relative = below.unwrap_or(path);
         match self.rules.iter().find(|(files, _)| files.take(relative)) {
             None => Arc::clone(self),
-            Some((_, pipeline)) => Arc::new(self.with(pipeline)),
+            Some((_, setup)) => Arc::clone(setup),
         }
     }
 }

@@ -172,6 +172,10 @@ fn said_of(changes: &Changes) -> String {
     if changes.open_ends_left > 0 {
         said += &format!(", {} left", changes.open_ends_left);
     }
+    if edges.at_borders > 0 {
+        let borders = counted(edges.at_borders, "edge", "edges");
+        said += &format!("; {borders} given on borders, which are boundaries anyway");
+    }
     if edges.creases > 0 {
         let creases = counted(edges.creases, "edge", "edges");
         said += &format!("; {creases} inside a patch");

@@ -7,13 +7,17 @@ mod mark;
 mod patches;
 mod straighten;
 mod stretches;
+mod strokes;
 mod track;
 
 use schemars::JsonSchema;
-use seamline_ecs::components::{ContourState, FaceLabel};
+use seamline_ecs::components::{BoundaryScore, ContourState, FaceLabel};
 use seamline_ecs::settings::{OutOfRange, Profile, StepSettings};
 use seamline_ecs::{EndFate, GivenAs, LabelledMesh, Labels, Rectifier, StepError, boundary};
+use seamline_mesh::Topology;
 use serde::{Deserialize, Serialize};
+
+use contours::Contours;
 
 pub use bridge::bridge;
 pub use contours::Ground;
@@ -21,6 +25,7 @@ pub use mark::{mark, mark_given};
 pub use patches::patches;
 pub use straighten::straighten;
 pub use stretches::stretches;
+pub use strokes::strokes;
 pub use track::track;
 
 /// The plugin, and its `[contour-tracking]` table.
@@ -44,8 +49,9 @@ pub struct ContourTrackingSettings {
     pub max_gap_share: f64,
     /// What becomes of a piece of contour that ends where nothing closes it, and so encloses no patch.
     pub dangling: DanglingRule,
-    /// Given edges, of which some may be wrong: a run of them between two junctions is not taken if it closes nothing
-    /// and none of it is correct by its score or turns by more than 15 degrees.
+    /// Given edges, of which some may be wrong: a run of them between two junctions is not taken if none of it is correct
+    /// by its score or turns by more than 15 degrees, and it closes nothing, or closes something by one edge alone that
+    /// goes on straight at neither end, as an edge thrown across a flat does.
     pub doubt_given: bool,
     /// Given labels: where their boundary turns by more than this between edges that are not correct it is rough, and
     /// the faces beside it are labelled anew before anything else; else it is kept as it is. The sides of a cylinder of
@@ -130,9 +136,63 @@ impl Rectifier for ContourTrackingSettings {
         "keeps correct boundary edges and tracks contours from them until they close (the paper's)";
 
     fn rectify(&self, mesh: &LabelledMesh<'_>) -> Result<Labels, StepError> {
-        let topology = mesh.topology;
-        let ground = Ground {
-            topology,
+        let ground = self.ground(mesh);
+        let mut of_face = mesh.labels.to_vec();
+        let (contours, doubted) = self.marked(mesh, &ground, &mut of_face);
+        Ok(self.closed(mesh.topology, ground, of_face, contours, doubted))
+    }
+
+    /// Where all that is given is believed by its form, runs straight and ends nowhere, scores could change nothing.
+    fn without_scores(&self, mesh: &LabelledMesh<'_>) -> Option<Labels> {
+        let worst = vec![BoundaryScore(90.0); mesh.angles.len()];
+        let mesh = &LabelledMesh {
+            scores: &worst,
+            ..*mesh
+        };
+        let ground = self.ground(mesh);
+        let mut states = vec![ContourState::Off; worst.len()];
+        match mesh.given_as {
+            GivenAs::Nothing => return None,
+            GivenAs::Edges | GivenAs::HardEdges => {
+                let doubt = self.doubt_given && mesh.given_as == GivenAs::Edges;
+                if !mark_given(mesh, &ground, doubt, self, &mut states).is_empty() {
+                    return None;
+                }
+            }
+            GivenAs::Labels => {
+                mark(
+                    mesh.topology,
+                    &worst,
+                    mesh.sharp,
+                    mesh.labels,
+                    self,
+                    &mut states,
+                );
+                for (edge, straight) in self.unproved(&ground, mesh.labels, &states) {
+                    if !straight {
+                        return None;
+                    }
+                    states[edge as usize] = ContourState::Kept;
+                }
+            }
+        }
+        if !Contours::of(ground, &mut states).open_ends().is_empty() {
+            return None;
+        }
+        Some(self.closed(
+            mesh.topology,
+            ground,
+            mesh.labels.to_vec(),
+            states,
+            Vec::new(),
+        ))
+    }
+}
+
+impl ContourTrackingSettings {
+    fn ground<'a>(&self, mesh: &LabelledMesh<'a>) -> Ground<'a> {
+        Ground {
+            topology: mesh.topology,
             positions: mesh.positions,
             scores: mesh.scores,
             turn_weight: self.turn_weight,
@@ -141,9 +201,18 @@ impl Rectifier for ContourTrackingSettings {
                 (_, 0.0) => f64::INFINITY,
                 (_, share) => share,
             },
-        };
-        let mut of_face = mesh.labels.to_vec();
-        let (mut contours, doubted) = self.marked(mesh, &ground, &mut of_face);
+        }
+    }
+
+    /// The patches, once open ends are closed.
+    fn closed(
+        &self,
+        topology: &Topology,
+        ground: Ground<'_>,
+        mut of_face: Vec<FaceLabel>,
+        mut contours: Vec<ContourState>,
+        doubted: Vec<u32>,
+    ) -> Labels {
         let states = &mut contours;
         let open_ends = match self.open_ends {
             ClosingRule::Bridge => bridge(ground, states),
@@ -173,16 +242,25 @@ impl Rectifier for ContourTrackingSettings {
             ),
             ("patches", patch_count),
         ];
-        Ok(Labels {
+        Labels {
             of_face,
             contours,
             open_ends,
             counts,
-        })
+        }
     }
-}
 
-impl ContourTrackingSettings {
+    /// Boundary edges that are not correct, each with whether its stretch is straight.
+    fn unproved(
+        &self,
+        ground: &Ground<'_>,
+        labels: &[FaceLabel],
+        states: &[ContourState],
+    ) -> Vec<(u32, bool)> {
+        let boundary = boundary(ground.topology, labels);
+        stretches(ground, &boundary, self.rough_above_deg, states)
+    }
+
     /// The contours to begin with. Labels that were given are made straight where their boundary is rough, and what is
     /// straight of it is kept. With them come the edges given that are doubted.
     fn marked(
@@ -197,16 +275,13 @@ impl ContourTrackingSettings {
         match mesh.given_as {
             GivenAs::Edges | GivenAs::HardEdges => {
                 let doubt = self.doubt_given && mesh.given_as == GivenAs::Edges;
-                doubted = mark_given(mesh, doubt, self, &mut states);
+                doubted = mark_given(mesh, ground, doubt, self, &mut states);
             }
             GivenAs::Nothing => mark(topology, scores, mesh.sharp, labels, self, &mut states),
             GivenAs::Labels => {
                 mark(topology, scores, mesh.sharp, labels, self, &mut states);
-                let unproved = |labels: &[FaceLabel], states: &[ContourState]| {
-                    let boundary = boundary(topology, labels);
-                    stretches(ground, &boundary, self.rough_above_deg, states)
-                };
-                let rough: Vec<u32> = unproved(labels, &states)
+                let rough: Vec<u32> = self
+                    .unproved(ground, labels, &states)
                     .into_iter()
                     .filter_map(|(edge, straight)| (!straight).then_some(edge))
                     .collect();
@@ -214,7 +289,7 @@ impl ContourTrackingSettings {
                     *labels = straighten(mesh, &rough, self.vote_weight);
                     mark(topology, scores, mesh.sharp, labels, self, &mut states);
                 }
-                for (edge, straight) in unproved(labels, &states) {
+                for (edge, straight) in self.unproved(ground, labels, &states) {
                     if straight {
                         states[edge as usize] = ContourState::Kept;
                     }

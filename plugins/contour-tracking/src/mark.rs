@@ -5,6 +5,8 @@ use seamline_ecs::{LabelledMesh, boundary};
 use seamline_mesh::{Sets, Topology};
 
 use crate::ContourTrackingSettings;
+use crate::contours::Ground;
+use crate::strokes::strokes;
 
 /// A given edge that turns by more than this is no slip of the hand. Half of what a cylinder of twelve sides turns by.
 const TURNS_DEG: f64 = 15.0;
@@ -34,30 +36,32 @@ pub fn mark(
 }
 
 /// Writes the state of every edge where edges were given: correct or off the contours. Where `doubt` is set, a run
-/// between two junctions is not taken, and its edges are given back, if it closes nothing and no edge of it is correct
-/// by its score or turns by more than 15 degrees.
+/// between two junctions is not taken, and its edges are given back, if no edge of it is correct by its score or turns by
+/// more than 15 degrees, nor closes something as part of a [stroke](strokes) of two edges or more.
 pub fn mark_given(
     mesh: &LabelledMesh<'_>,
+    ground: &Ground<'_>,
     doubt: bool,
     settings: &ContourTrackingSettings,
     states: &mut [ContourState],
 ) -> Vec<u32> {
     states.fill(ContourState::Off);
     let given = mesh.given_edges;
-    let speaks_for_itself = |edge: u32| {
+    let strokes = strokes(ground, given);
+    let speaks_for_itself = |edge: u32, stroke_edges: u32| {
         let faces = mesh.topology.face_pair(edge as usize);
         // Faces are labelled by what the edges given part, so an edge between two labels is part of a closed contour.
         let closes = faces.is_some_and(|[a, b]| mesh.labels[a as usize] != mesh.labels[b as usize]);
         let edge = edge as usize;
-        closes
+        (closes && stroke_edges > 1)
             || mesh.scores[edge].0 < settings.correct_below_deg
             || mesh.sharp[edge].0
             || mesh.angles[edge].0.abs() > TURNS_DEG.to_radians()
     };
     let (run_of, run_count) = runs(mesh.topology, given);
     let mut believed = vec![!doubt; run_count];
-    for (&edge, &run) in given.iter().zip(&run_of) {
-        believed[run as usize] |= speaks_for_itself(edge);
+    for ((&edge, &run), &stroke_edges) in given.iter().zip(&run_of).zip(&strokes) {
+        believed[run as usize] |= speaks_for_itself(edge, stroke_edges);
     }
     let mut doubted = Vec::new();
     for (&edge, &run) in given.iter().zip(&run_of) {

@@ -22,6 +22,12 @@ pub trait Rectifier: StepSettings {
     ///
     /// Where it cannot do its work on this mesh: the job ends with this reason.
     fn rectify(&self, mesh: &LabelledMesh<'_>) -> Result<Labels, StepError>;
+
+    /// The labels [`Rectifier::rectify`] would give, if they are the same whatever the scores. Asked where boundaries were
+    /// given, before there are any scores (`mesh.scores` is empty); after an answer none are computed.
+    fn without_scores(&self, _mesh: &LabelledMesh<'_>) -> Option<Labels> {
+        None
+    }
 }
 
 /// What a rectifier answers.
@@ -35,6 +41,17 @@ pub struct Labels {
     pub open_ends: Vec<OpenEnd>,
     /// Numbers for the report, such as how many patches there are.
     pub counts: Vec<(&'static str, usize)>,
+}
+
+/// What the rectifier has answered before there were scores.
+#[derive(Resource, Clone, Debug, Default)]
+pub struct Answered(pub(crate) Option<Labels>);
+
+impl Answered {
+    /// Is there an answer that needs no scores?
+    pub fn is_there(&self) -> bool {
+        self.0.is_some()
+    }
 }
 
 /// An open end of a contour, and what became of it.
@@ -126,6 +143,42 @@ struct BoundaryColumns<'w, 's> {
     given: Res<'w, GivenBoundary>,
 }
 
+impl BoundaryColumns<'_, '_> {
+    fn lend<'a>(&'a self, labels: &'a [FaceLabel]) -> LabelledMesh<'a> {
+        LabelledMesh {
+            topology: &self.topology.0,
+            positions: &self.positions,
+            shapes: &self.shapes,
+            angles: &self.angles,
+            sharp: &self.sharp,
+            scores: &self.scores,
+            labels,
+            given_edges: match self.given.origin {
+                GivenAs::Nothing | GivenAs::Labels => &[],
+                GivenAs::Edges | GivenAs::HardEdges => &self.given.edges,
+            },
+            given_as: self.given.origin,
+            mesh: &self.mesh.0,
+        }
+    }
+}
+
+/// The system that asks for an answer before there are scores ([`Rectifier::without_scores`]).
+pub(crate) fn early_systems(
+    without_scores: impl Fn(&LabelledMesh<'_>) -> Option<Labels> + Send + Sync + 'static,
+) -> StageSystems {
+    let system = move |columns: BoundaryColumns,
+                       labels: Column<FaceLabel>,
+                       mut answered: ResMut<Answered>| {
+        let seen = LabelledMesh {
+            scores: &[],
+            ..columns.lend(&labels)
+        };
+        answered.0 = without_scores(&seen);
+    };
+    system.into_configs()
+}
+
 /// The system that lends `rectify` its columns, checks its answer and writes it down.
 pub fn rectifier_systems(
     rectify: impl Fn(&LabelledMesh<'_>) -> Result<Labels, StepError> + Send + Sync + 'static,
@@ -134,23 +187,12 @@ pub fn rectifier_systems(
                        mut labels: ColumnMut<FaceLabel>,
                        mut contours: ColumnMut<ContourState>,
                        mut open_ends: ResMut<OpenEnds>,
+                       mut answered: ResMut<Answered>,
                        mut counts: ResMut<Counts>| {
-        let seen = LabelledMesh {
-            topology: &columns.topology.0,
-            positions: &columns.positions,
-            shapes: &columns.shapes,
-            angles: &columns.angles,
-            sharp: &columns.sharp,
-            scores: &columns.scores,
-            labels: &labels,
-            given_edges: match columns.given.origin {
-                GivenAs::Nothing | GivenAs::Labels => &[],
-                GivenAs::Edges | GivenAs::HardEdges => &columns.given.edges,
-            },
-            given_as: columns.given.origin,
-            mesh: &columns.mesh.0,
+        let found = match answered.0.take() {
+            Some(found) => found,
+            None => rectify(&columns.lend(&labels))?,
         };
-        let found = rectify(&seen)?;
         let answers = found.of_face.iter().map(|label| label.0);
         check_answers("rectifier", "label", "face", answers, labels.len())?;
         if found.contours.is_empty() {

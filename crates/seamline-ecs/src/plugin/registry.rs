@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use toml::Table;
 
+use super::rectifier::early_systems;
 use super::{
     Classifier, CommandSettings, Rectifier, SwappableStage, classifier_systems, rectifier_systems,
 };
@@ -29,6 +30,8 @@ pub struct PluginEntry {
     pub settings: SettingsTable,
     /// Its systems under the settings in force.
     pub systems: fn(&Table) -> Result<MakeSystems, SettingsError>,
+    /// Those that run before there are scores; none for a classifier.
+    pub early: Option<fn(&Table) -> Result<MakeSystems, SettingsError>>,
 }
 
 impl PluginEntry {
@@ -53,7 +56,17 @@ impl PluginEntry {
                 rectifier_systems(move |mesh| settings.rectify(mesh))
             }))
         };
-        Self::of::<R>(SwappableStage::Rectify, R::SUMMARY, systems)
+        let early: fn(&Table) -> Result<MakeSystems, SettingsError> = |in_force| {
+            let settings: R = settings::read(in_force)?;
+            Ok(Arc::new(move || {
+                let settings = settings.clone();
+                early_systems(move |mesh| settings.without_scores(mesh))
+            }))
+        };
+        Self {
+            early: Some(early),
+            ..Self::of::<R>(SwappableStage::Rectify, R::SUMMARY, systems)
+        }
     }
 
     fn of<S: StepSettings>(
@@ -67,6 +80,7 @@ impl PluginEntry {
             summary,
             settings: SettingsTable::of::<S>(),
             systems,
+            early: None,
         }
     }
 }

@@ -9,7 +9,8 @@ use super::{Markings, MarkingsError};
 use crate::read::open_ply;
 use crate::{Mesh, Place, ReadError};
 
-/// Names that labels go by, in the order in which they are asked; after them, the one whole number a face has.
+/// Names that labels go by, in the order in which they are asked; after them, the one whole number a face has, its colour,
+/// its selection, or the one fraction it has, since some programs store every number as one.
 const LABEL_NAMES: [&str; 8] = [
     "patch",
     "label",
@@ -101,6 +102,11 @@ fn by_name<'a>(
         );
         !fraction && !COLOUR.contains(*name) && !["alpha", "flags"].contains(*name)
     };
+    let fractions: Vec<&&str> = numbers
+        .iter()
+        .filter(|name| !is_whole(name) && !COLOUR.contains(*name))
+        .filter(|name| !["alpha", "flags"].contains(*name))
+        .collect();
     match numbers.iter().filter(is_whole).collect::<Vec<_>>()[..] {
         [name] => Ok(vec![name]),
         [] if has_colour => Ok(numbers
@@ -109,6 +115,7 @@ fn by_name<'a>(
             .filter(|n| COLOUR.contains(n))
             .collect()),
         [] if numbers.contains(&"flags") => Ok(vec!["flags"]),
+        [] if fractions.len() == 1 => Ok(vec![*fractions[0]]),
         _ => Err(MarkingsError::whole(
             "it is not said what tells its faces apart",
             format!(

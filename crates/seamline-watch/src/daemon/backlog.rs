@@ -141,7 +141,7 @@ mod tests {
             relative: name.into(),
             stamp,
             markings: None,
-            lone: false,
+            unpaired: None,
             overdue: false,
             since: Instant::now(),
             not_before: None,

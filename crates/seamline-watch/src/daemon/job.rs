@@ -12,6 +12,7 @@ use crate::config::After;
 use crate::ledger::{Fault, JobId};
 use crate::load::LoadedMesh;
 use crate::memory::Pass;
+use crate::pairs::Unpaired;
 use crate::setup::Setup;
 use crate::tracker::{FileFact, Stamp};
 
@@ -28,8 +29,8 @@ pub(super) struct Waiting {
     pub stamp: Stamp,
     /// What another tool has marked on it, where that is half of the work.
     pub markings: Option<FileFact>,
-    /// It is half of a pair whose other half has not come.
-    pub lone: bool,
+    /// It is half of a pair that cannot be worked on.
+    pub unpaired: Option<Unpaired>,
     /// It has ended early for so long that nothing more is to be expected.
     pub overdue: bool,
     /// When it was found ready.

@@ -7,6 +7,7 @@ use std::time::{Duration, Instant};
 
 use crate::config::{Config, innermost};
 use crate::events::{Events, Hint};
+use crate::pairs::Unpaired;
 use crate::tracker::{FileFact, ReadyFile, Stamp};
 use root::Root;
 
@@ -22,8 +23,8 @@ pub(super) struct Ready {
     pub relative: PathBuf,
     /// What is marked on it, where that is half of the work.
     pub markings: Option<FileFact>,
-    /// It is half of a pair whose other half has not come.
-    pub lone: bool,
+    /// It is half of a pair that cannot be worked on.
+    pub unpaired: Option<Unpaired>,
 }
 
 /// What a look has found.

@@ -136,3 +136,18 @@ fn names_tell_which_halves_belong_together() {
         Path::new("q/part-1.edges.txt")
     );
 }
+
+#[test]
+fn a_mesh_with_labels_and_edges_is_told_once_and_paired_when_one_of_them_goes() {
+    let mut inbox = Inbox::new();
+    inbox.ready(0, "in/part.seg", 1);
+    inbox.ready(0, "in/part.edges.txt", 2);
+    let mesh = Complete::Crowded(file("in/part.stl", 3));
+    assert_eq!(inbox.ready(1, "in/part.stl", 3), [mesh]);
+    assert!(inbox.step(100, Vec::new(), true).is_empty());
+    inbox.begins_to_change("in/part.stl");
+    inbox.begins_to_change("in/part.edges.txt");
+    inbox.step(101, Vec::new(), false);
+    let both = pair(("in/part.stl", 4), ("in/part.seg", 1));
+    assert_eq!(inbox.ready(102, "in/part.stl", 4), both);
+}

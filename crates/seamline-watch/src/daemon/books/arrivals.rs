@@ -12,7 +12,7 @@ use crate::daemon::WatchError;
 use crate::daemon::job::{Failure, Job, Waiting, stamp_word};
 use crate::daemon::lookout::Ready;
 use crate::ledger::{Arrival, Row, TakenIn};
-use crate::pairs::{Complete, markings_in};
+use crate::pairs::{Complete, Unpaired, markings_in};
 use crate::shown;
 use crate::tracker::{FileFact, ReadyFile};
 
@@ -58,15 +58,16 @@ impl Open {
             nothing_comes,
         );
         ready.extend(complete.into_iter().map(|complete| {
-            let (file, markings) = match complete {
-                Complete::Pair { mesh, markings } => (mesh, Some(markings)),
-                Complete::Lone(half) => (half, None),
+            let (file, markings, unpaired) = match complete {
+                Complete::Pair { mesh, markings } => (mesh, Some(markings), None),
+                Complete::Lone(half) => (half, None, Some(Unpaired::Lone)),
+                Complete::Crowded(mesh) => (mesh, None, Some(Unpaired::Crowded)),
             };
             let watched = setup.config.watched_with(&file.path);
             let relative = watched.and_then(|w| file.path.strip_prefix(&w.root).ok());
             Ready {
                 relative: relative.unwrap_or(&file.path).to_owned(),
-                lone: markings.is_none(),
+                unpaired,
                 markings: markings.map(|ReadyFile { path, stamp, .. }| FileFact { path, stamp }),
                 file,
             }
@@ -104,7 +105,7 @@ impl Open {
                 relative: ready.relative,
                 stamp: ready.file.stamp,
                 markings: ready.markings,
-                lone: ready.lone,
+                unpaired: ready.unpaired,
                 overdue: ready.file.overdue,
                 since: Instant::now(),
                 not_before: None,

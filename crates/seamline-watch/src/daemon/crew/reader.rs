@@ -19,7 +19,7 @@ use crate::load::{
     weld_share,
 };
 use crate::memory::{Pass, START_BYTES, TooLarge, bytes_for_mesh, estimate};
-use crate::pairs::{markings_in, markings_of as markings_beside, meshes_of};
+use crate::pairs::{Unpaired, markings_in, markings_of as markings_beside, meshes_of};
 use crate::retry::may_pass;
 use crate::shown;
 
@@ -51,7 +51,7 @@ fn read(shared: &Shared, ledger: &Reader, job: Job) -> Result<Box<Loaded>, Box<O
     let instead = |outcome| Err(Box::new(outcome));
     let refused_unread = taken_by_another_root(ledger, &job)
         .or_else(|| too_long(&job))
-        .or_else(|| lone(&job));
+        .or_else(|| unpaired(&job));
     if let Some(failure) = refused_unread {
         return instead(Outcome::Failed { job, failure });
     }
@@ -241,13 +241,17 @@ fn read_markings(job: &Job) -> Result<Option<FileBytes>, Box<dyn FnOnce(Job) -> 
     }
 }
 
-/// Half of a pair whose other half has not come.
-fn lone(job: &Job) -> Option<Failure> {
+/// Half of a pair whose other half has not come, or has come twice.
+fn unpaired(job: &Job) -> Option<Failure> {
     let path = &job.file.path;
-    if !job.file.lone {
-        return None;
-    }
+    let why = job.file.unpaired?;
     let name = |path: &Path| path.file_name().unwrap_or_default().display().to_string();
+    if why == Unpaired::Crowded {
+        let [labels, edges] = markings_beside(path).map(|path| name(&path));
+        let message = format!("has labels and edges beside it, {labels} and {edges}");
+        let hint = "take away the one that is not meant, then requeue this";
+        return Some(Failure::new("read", message, hint));
+    }
     let (message, others) = match markings_in(path) {
         None => (
             "has no labels and no edges beside it",

@@ -207,7 +207,7 @@ impl Root {
                     .unwrap_or(&file.path)
                     .to_owned(),
                 markings: None,
-                lone: false,
+                unpaired: None,
                 file,
             })
             .collect()

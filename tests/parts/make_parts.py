@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """CAD parts with ground truth, in the format of the bench.
 
-    make_parts.py [--out models] [--only NAME ...] [--variants coarse fine uniform]
+    make_parts.py [--series 1] [--out models] [--only NAME ...] [--variants coarse fine uniform]
 
 Exit status: 0 all made, 1 some part or mesh is not usable; each is named with its reason, the others are made.
 """
@@ -17,11 +17,10 @@ from OCP.BRepCheck import BRepCheck_Analyzer
 from OCP.BRepMesh import BRepMesh_IncrementalMesh
 from OCP.BRepTools import BRepTools
 
-from families import PARTS
+from families import SERIES
 from surfaces import Face, unit
 from unusable import Unusable
 from write import make
-
 
 
 def placed(shape, name, turn, offset):
@@ -35,9 +34,9 @@ def placed(shape, name, turn, offset):
     return shape
 
 
-def build(name):
-    """The finished solid of a part, or Unusable."""
-    function, _, turn, offset, scale = PARTS[name]
+def build(name, part):
+    """The finished solid of a registered part, or Unusable."""
+    function, _, turn, offset, scale = part
     try:
         solids = function().val().Solids()
     except Exception as error:
@@ -57,7 +56,7 @@ def faces_of(shape, diagonal):
     return [Face(face.wrapped, diagonal) for face in shape.Faces()]
 
 
-def make_part(name, variants, out):
+def make_part(name, part, variants, out):
     """Makes the meshes of a part; returns what could not be made, in words."""
     skipped = []
 
@@ -66,14 +65,14 @@ def make_part(name, variants, out):
         print("SKIPPED", skipped[-1], flush=True)
 
     try:
-        shape = build(name)
+        shape = build(name, part)
         diagonal = shape.BoundingBox(1e-4).DiagonalLength
         faces = faces_of(shape, diagonal)
     except Unusable as error:
         skip(name, error)
         return skipped
     for variant in variants:
-        if variant == "uniform" and not PARTS[name][1]:
+        if variant == "uniform" and not part[1]:
             continue
         start = time.time()
         try:
@@ -89,16 +88,21 @@ def make_part(name, variants, out):
 
 def main():
     args = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    args.add_argument("--series", type=int, default=1, choices=list(SERIES))
     args.add_argument("--out", type=Path, default=Path("models"))
-    args.add_argument("--only", nargs="*", default=list(PARTS), choices=list(PARTS), metavar="NAME")
+    args.add_argument("--only", nargs="*", metavar="NAME")
     args.add_argument("--variants", nargs="*", default=["coarse", "fine", "uniform"], choices=["coarse", "fine", "uniform"])
-    args = args.parse_args()
+    usage, args = args, args.parse_args()
+    parts = SERIES[args.series]
+    names = list(parts) if args.only is None else args.only
+    if unknown := [name for name in names if name not in parts]:
+        usage.error(f"not in series {args.series}: {', '.join(unknown)}")
     args.out.mkdir(parents=True, exist_ok=True)
     skipped = []
-    for name in args.only:
+    for name in names:
         for suffix in (f"-{v}.{e}" for v in args.variants for e in ("stl", "seg", "json")):
             (args.out / (name + suffix)).unlink(missing_ok=True)
-        skipped += make_part(name, args.variants, args.out)
+        skipped += make_part(name, parts[name], args.variants, args.out)
     print(f"{len(skipped)} skipped" + "".join(f"\n  {line}" for line in skipped))
     return 1 if skipped else 0
 

@@ -1,5 +1,5 @@
-"""The parts, by family."""
-from . import electrical, free_forms, gears, housings, turned_parts
-from .register import PARTS
+"""The parts, by family; those of the second series in `second/`."""
+from . import electrical, free_forms, gears, housings, second, turned_parts
+from .register import SERIES
 
-__all__ = ["PARTS", "electrical", "free_forms", "gears", "housings", "turned_parts"]
+__all__ = ["SERIES", "electrical", "free_forms", "gears", "housings", "second", "turned_parts"]

@@ -9,7 +9,7 @@ use seamline_ecs::results::{PatchSurface, SurfaceShape};
 use seamline_ecs::rows::{self, Surfaces};
 use seamline_ecs::settings::{OutOfRange, Profile, StepSettings};
 use seamline_ecs::{
-    Column, ColumnMut, Counts, InputMesh, MeshScale, MeshTopology, Settled, Stage, StageSystems,
+    Column, ColumnMut, Counts, InputMesh, Measures, MeshScale, MeshTopology, Settled, Stage, StageSystems,
 };
 use seamline_primitives::{Fitted, Found, Kind, find};
 use serde::{Deserialize, Serialize};
@@ -100,6 +100,11 @@ fn make_rows(In(found): In<Found>, world: &mut World) {
     world
         .resource_mut::<Counts>()
         .note(Stage::Surfaces, "surfaces", known);
+    if found.noise > 0.0 {
+        world
+            .resource_mut::<Measures>()
+            .note(Stage::Surfaces, "noise", found.noise * scale.length);
+    }
     world.insert_resource(Settled(explains.then_some(found.of_face)));
 }
 

@@ -129,8 +129,8 @@ fn a_mesh_without_extent_is_cut_all_the_same() {
     assert_eq!(find(&[], &Topology::build(0, Vec::new()), 0.0).of_face, []);
 }
 
-#[test]
-fn noise_a_thousandth_of_an_edge_leaves_nothing_exact() {
+/// A smooth cube whose vertices are moved by up to half of `width` along each axis.
+fn noisy_cube(width: f64) -> (Found, Vec<u32>) {
     let mut random = 7u64;
     let mut unit = || {
         random = random
@@ -141,11 +141,44 @@ fn noise_a_thousandth_of_an_edge_leaves_nothing_exact() {
     let shape = shapes::smooth_cube(0.2, 12, 8);
     let mut mesh = weld(shape.polygons(), 0.0);
     for x in &mut mesh.polygons.positions {
-        *x += DVec3::new(unit(), unit(), unit()) * 1e-4;
+        *x += DVec3::new(unit(), unit(), unit()) * width;
     }
     let topology = Topology::build(mesh.positions().len(), mesh.triangles.clone());
-    let found = find(mesh.positions(), &topology, 0.0);
-    assert!(found.exact_share < 0.05, "{}", found.exact_share);
+    (find(mesh.positions(), &topology, 0.0), shape.patches)
+}
+
+#[test]
+fn the_noise_of_vertices_is_told_and_its_size() {
+    assert_eq!(noisy_cube(0.0).0.noise, 0.0);
+    for width in [1e-4, 1e-3] {
+        let deviation = width / 12f64.sqrt();
+        let noise = noisy_cube(width).0.noise;
+        assert!(
+            (0.7..1.4).contains(&(noise / deviation)),
+            "{noise} for {deviation}"
+        );
+    }
+}
+
+#[test]
+fn a_smooth_cube_keeps_its_patches_under_noise_of_a_thousandth_of_an_edge() {
+    let (found, truth) = noisy_cube(1e-4);
+    assert!(found.exact_share > 0.5, "{}", found.exact_share);
+    let kinds = [Kind::Plane, Kind::Cylinder, Kind::Sphere].map(|kind| of_kind(&found, kind).len());
+    assert_eq!(kinds, [6, 12, 8]);
+    assert_eq!(found.surfaces.len(), 26);
+    let mut pairs: Vec<(u32, u32)> = truth.iter().copied().zip(found.of_face).collect();
+    pairs.sort_unstable();
+    let most = pairs.chunk_by(|a, b| a.0 == b.0).map(|of_one| {
+        let runs = of_one.chunk_by(|a, b| a.1 == b.1);
+        runs.map(<[_]>::len).max().unwrap()
+    });
+    let agree: usize = most.sum();
+    assert!(
+        agree * 100 >= truth.len() * 97,
+        "{agree} of {}",
+        truth.len()
+    );
 }
 
 proptest! {

@@ -9,7 +9,8 @@ use seamline_ecs::results::{PatchSurface, SurfaceShape};
 use seamline_ecs::rows::{self, Surfaces};
 use seamline_ecs::settings::{OutOfRange, Profile, StepSettings};
 use seamline_ecs::{
-    Column, ColumnMut, Counts, InputMesh, Measures, MeshScale, MeshTopology, Settled, Stage, StageSystems,
+    Column, ColumnMut, Counts, InputMesh, Measures, MeshScale, MeshTopology, Settled, Stage,
+    StageSystems,
 };
 use seamline_primitives::{Fitted, Found, Kind, find};
 use serde::{Deserialize, Serialize};

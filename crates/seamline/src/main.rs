@@ -22,7 +22,6 @@ use clap::Parser;
 #[global_allocator]
 static ALLOCATOR: mimalloc::MiMalloc = mimalloc::MiMalloc;
 
-
 use args::{Args, Command, PluginsArgs, PluginsCommand};
 use outcome::Outcome;
 

@@ -29,8 +29,16 @@ const BOUNDARY: f64 = 2.0;
 const CHORD: f64 = 0.035;
 /// Root mean square distance, in deviations of the noise, up to which points lie on a surface.
 const LIES: f64 = crate::EXACT_DEVIATIONS;
+/// A facet turned farther than this, 40 degrees, and than noise turns it, is not of a surface its corners lie on, as
+/// the caps of a cylinder are not of it; radians.
+const TURNED: f64 = 0.7;
+/// Share of a patch's area that may be.
+const MOST_TURNED: f64 = 0.1;
+/// How much farther from a surface fitted to two patches each may lie than from its own.
+const WORSE: f64 = 1.2;
+/// Most vertices a fit looks at.
 const MOST_POINTS: usize = 400;
-/// Faces of a free form or patch that is too small to stay by itself.
+/// Most faces of a free form that costs its faces as much as can be: what is so small is a leftover.
 const FEW: usize = 6;
 
 /// A mesh with its noise.
@@ -141,7 +149,7 @@ impl Noisy<'_> {
             let Some(surface) = self.of_both(&first, of_large, &second, of_small) else {
                 continue;
             };
-            if self.turned_share(&surface, &faces[small as usize]) > 0.1 {
+            if self.turned_share(&surface, &faces[small as usize]) > MOST_TURNED {
                 continue;
             }
             sets.unite(large, small);
@@ -168,7 +176,7 @@ impl Noisy<'_> {
         for &face in faces {
             let area = self.triangles.areas[face as usize];
             whole += area;
-            if self.turned(surface, face) > 0.7 + self.triangles.leans[face as usize] {
+            if self.turned(surface, face) > TURNED + self.triangles.leans[face as usize] {
                 turned += area;
             }
         }
@@ -206,7 +214,7 @@ impl Noisy<'_> {
             let fit = refine_patiently(from.surface, &both, 0.0)?;
             let lies = |points: &[DVec3], own: f64| {
                 rms(&fit.surface, points)
-                    <= (LIES * self.noise).min(1.2 * own.max(0.8 * self.noise))
+                    <= (LIES * self.noise).min(WORSE * own.max(0.8 * self.noise))
             };
             (lies(of_large, large.residual) && lies(of_small, small.residual)).then_some(Fitted {
                 surface: fit.surface,

@@ -46,14 +46,10 @@ pub(crate) fn surfaces(
 }
 
 fn plane(view: View, piece: u32) -> Fitted {
-    let surface = Surface {
-        kind: Kind::Plane,
-        point: view.pieces.centroids[piece as usize],
-        axis: view.pieces.normals[piece as usize],
-        a: 0.0,
-        b: 0.0,
-    };
-    fitted(view, &view.weigh(surface, 1.0, vec![piece], view.precision))
+    fitted(
+        view,
+        &view.weigh(view.plane_of(piece), 1.0, vec![piece], view.precision),
+    )
 }
 
 fn fitted(view: View, region: &Hypothesis) -> Fitted {
@@ -67,10 +63,7 @@ fn fitted(view: View, region: &Hypothesis) -> Fitted {
         .copied()
         .step_by(points.len().div_ceil(MOST_POINTS))
         .collect();
-    let rms = |surface: &Surface| {
-        let squares: f64 = points.iter().map(|&x| surface.distance(x).powi(2)).sum();
-        (squares / points.len() as f64).sqrt()
-    };
+    let rms = |surface: &Surface| surface.rms(&points);
     let again = refine_patiently(region.surface, &few, 0.0).map(|fit| fit.surface);
     let mut surface = again
         .filter(|surface| rms(surface) <= rms(&region.surface))

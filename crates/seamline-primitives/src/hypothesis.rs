@@ -87,6 +87,17 @@ impl View<'_> {
             .fold(0.0, f64::max)
     }
 
+    /// The plane of a piece's centroid and normal.
+    pub fn plane_of(&self, piece: u32) -> Surface {
+        Surface {
+            kind: Kind::Plane,
+            point: self.pieces.centroids[piece as usize],
+            axis: self.pieces.normals[piece as usize],
+            a: 0.0,
+            b: 0.0,
+        }
+    }
+
     /// Do the vertices of a piece lie in the plane of its centroid and normal?
     pub fn is_flat(&self, piece: u32, tolerance: f64) -> bool {
         let normal = self.pieces.normals[piece as usize];
@@ -181,7 +192,6 @@ impl View<'_> {
             .iter()
             .map(|&v| self.positions[v as usize])
             .collect();
-        let squares: f64 = points.iter().map(|&x| surface.distance(x).powi(2)).sum();
         let apart = 4.0 * tolerance;
         let few: Vec<DVec3> = points
             .iter()
@@ -193,7 +203,7 @@ impl View<'_> {
                 Kind::Plane | Kind::Cylinder | Kind::Cone => true,
                 Kind::Sphere | Kind::Torus => !self.lie_on_a_cone(&pieces, &points, tolerance),
             };
-        let rms = (squares / points.len() as f64).sqrt();
+        let rms = surface.rms(&points);
         Hypothesis {
             rms,
             exact: rms <= self.precision,

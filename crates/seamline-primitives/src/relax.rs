@@ -13,7 +13,7 @@ use seamline_mesh::{Sets, Topology};
 use crate::Fitted;
 use crate::pieces::Triangles;
 use crate::refine::refine_patiently;
-use crate::surface::{Kind, Surface};
+use crate::surface::Kind;
 
 /// How often surfaces are fitted and faces go over.
 const ROUNDS: usize = 4;
@@ -93,14 +93,14 @@ impl Noisy<'_> {
                 *fitted = None;
                 continue;
             }
-            let now = rms(&own.surface, points);
+            let now = own.surface.rms(points);
             if points.len() > own.surface.kind.degrees_of_freedom()
                 && let Some(fit) = refine_patiently(own.surface, points, 0.0)
                 && fit.rms < now
             {
                 own.surface = fit.surface;
             }
-            own.residual = rms(&own.surface, points);
+            own.residual = own.surface.rms(points);
             own.exact = own.residual <= LIES * self.noise;
             own.evidence = points
                 .len()
@@ -111,7 +111,7 @@ impl Noisy<'_> {
 
     /// Unites neighbours that lie on one surface.
     fn unite(self, patches: &mut Patches) {
-        let points = self.points(patches);
+        let mut points = self.points(patches);
         let mut beside: BTreeMap<[u32; 2], f64> = BTreeMap::new();
         for edge in 0..self.topology.edge_faces.len() {
             if let Some(faces) = self.topology.face_pair(edge) {
@@ -126,7 +126,6 @@ impl Noisy<'_> {
         let mut pairs: Vec<([u32; 2], f64)> = beside.into_iter().collect();
         pairs.sort_by(|a, b| b.1.total_cmp(&a.1));
         let mut sets = Sets::new(points.len());
-        let mut points = points;
         let mut faces = vec![Vec::new(); patches.surfaces.len()];
         for (face, &patch) in patches.of_face.iter().enumerate() {
             faces[patch as usize].push(face as u32);
@@ -206,14 +205,14 @@ impl Noisy<'_> {
         if curved && large.convex != small.convex {
             return None;
         }
-        if rms(&large.surface, of_small) <= LIES * self.noise {
+        if large.surface.rms(of_small) <= LIES * self.noise {
             return Some(*large);
         }
         let both = [of_large, of_small].concat();
         [large, small].into_iter().find_map(|from| {
             let fit = refine_patiently(from.surface, &both, 0.0)?;
             let lies = |points: &[DVec3], own: f64| {
-                rms(&fit.surface, points)
+                fit.surface.rms(points)
                     <= (LIES * self.noise).min(WORSE * own.max(0.8 * self.noise))
             };
             (lies(of_large, large.residual) && lies(of_small, small.residual)).then_some(Fitted {
@@ -234,10 +233,10 @@ impl Noisy<'_> {
             let mut moved = 0;
             for face in 0..patches.of_face.len() as u32 {
                 let own = patches.of_face[face as usize];
-                let around = self.around(face, patches);
-                if around.iter().all(|&(patch, _)| patch == own) {
+                if self.is_inside(face, patches) {
                     continue;
                 }
+                let around = self.around(face, patches);
                 let cost = |patch: u32| {
                     let cut: f64 = around
                         .iter()
@@ -271,6 +270,15 @@ impl Noisy<'_> {
             }
         }
         gone
+    }
+
+    /// Are all neighbours of a face in its own patch?
+    fn is_inside(self, face: u32, patches: &Patches) -> bool {
+        let own = patches.of_face[face as usize];
+        let edges = self.topology.face_edges[face as usize].into_iter();
+        edges
+            .filter_map(|edge| self.topology.neighbour(face, edge))
+            .all(|across| patches.of_face[across as usize] == own)
     }
 
     /// The patches across the edges of a face, each with the edge's share of the perimeter.
@@ -310,9 +318,4 @@ impl Noisy<'_> {
         };
         squares / 2.0
     }
-}
-
-fn rms(surface: &Surface, points: &[DVec3]) -> f64 {
-    let squares: f64 = points.iter().map(|&x| surface.distance(x).powi(2)).sum();
-    (squares / points.len() as f64).sqrt()
 }

@@ -62,9 +62,7 @@ impl Snapper<'_> {
 
     /// Puts `surface` in the place of a patch's own if its vertices lie on it exactly too.
     fn follow(&mut self, patch: usize, surface: Surface) -> bool {
-        let points = &self.points[patch];
-        let squares: f64 = points.iter().map(|&x| surface.distance(x).powi(2)).sum();
-        let rms = (squares / points.len().max(1) as f64).sqrt();
+        let rms = surface.rms(&self.points[patch]);
         let lies = rms <= self.precision;
         if let Some(fitted) = self.fitted[patch].as_mut().filter(|_| lies) {
             fitted.surface = surface;

@@ -59,6 +59,12 @@ pub(crate) struct AboutAxis {
 }
 
 impl Surface {
+    /// Root mean square distance of points; 0 of none.
+    pub(crate) fn rms(&self, points: &[DVec3]) -> f64 {
+        let squares: f64 = points.iter().map(|&x| self.distance(x).powi(2)).sum();
+        (squares / points.len().max(1) as f64).sqrt()
+    }
+
     pub(crate) fn about_axis(&self, x: DVec3) -> AboutAxis {
         let from_point = x - self.point;
         let height = from_point.dot(self.axis);

@@ -71,7 +71,12 @@ fn refuse_without_effect(args: &RectifyArgs) -> Result<(), WrongUse> {
             "--classifier {name}: nothing is classified where boundaries are given; leave it out"
         )));
     }
-    if let (Some(by), Some(file)) = (&args.labels_by, &args.what.labels) {
+    if let Some(by) = &args.labels_by {
+        let Some(file) = &args.what.labels else {
+            return Err(WrongUse(format!(
+                "--labels-by {by}: no labels are given; name their PLY or OBJ with --labels"
+            )));
+        };
         // Other names say nothing: a PLY is known by its content.
         let name = file.to_string_lossy().to_lowercase();
         if name.ends_with(".seg") || name.ends_with(".selection.txt") {

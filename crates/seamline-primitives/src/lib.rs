@@ -30,6 +30,7 @@
 
 mod absorb;
 mod around;
+mod bends;
 mod certain;
 mod climb;
 mod crease_angles;

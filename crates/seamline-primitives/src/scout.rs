@@ -137,6 +137,13 @@ impl<'a> Scout<'a> {
         About::of(best, midst)
     }
 
+    /// The surface of a kind that is fitted to pieces and grows from one of them.
+    pub fn of_kind(&mut self, seed: u32, kind: Kind, pieces: &[u32]) -> Option<Hypothesis> {
+        let mut best: [Option<Hypothesis>; 4] = Default::default();
+        self.attempt(seed, kind, pieces, &mut best);
+        best[kind as usize - 1].take()
+    }
+
     /// A torus looks like a cylinder nearby, and a cone like one too: where a surface only came near, those of more
     /// freedom are tried on all it took in.
     fn on_what_came_near(&mut self, seed: u32, best: &mut [Option<Hypothesis>; 4]) {

@@ -4,6 +4,7 @@
 use rayon::prelude::*;
 
 use crate::around::Around;
+use crate::bends;
 use crate::hypothesis::{Hypothesis, View};
 use crate::scout::{About, COVERS, Scout};
 
@@ -51,6 +52,8 @@ pub(crate) fn search(view: View, open: &[bool], rung: usize, tolerance: f64) -> 
             .take(side_by_side)
             .collect();
         if batch.is_empty() {
+            let mut scout = Scout::new(view, open, rung, tolerance);
+            found.extend(bends::tori(view, &mut scout, &found));
             return found;
         }
         while scouts.len() < batch.len() {

@@ -2,15 +2,14 @@
 
 use seamline_mesh::Topology;
 
-use crate::hypothesis::View;
+use crate::hypothesis::{Hypothesis, View};
 use crate::pieces::NONE;
 use crate::regions::{Ending, Regions};
 use crate::surface::Kind;
 
 /// Evidence from which no border is asked of a surface its vertices lie on exactly.
 const ENOUGH_IF_EXACT: i64 = 5;
-/// Evidence below which walls do not count: each tile of a narrow band between two walls has walls on most of
-/// its border.
+/// Two regions of less evidence do not vouch for each other.
 const SMALL: i64 = 25;
 /// Evidence below which almost the whole border must be natural.
 const TINY: i64 = 8;
@@ -18,6 +17,11 @@ const TINY: i64 = 8;
 const MUCH_LARGER: f64 = 2.0;
 const NATURAL_SHARE: f64 = 0.5;
 const NATURAL_SHARE_OF_TINY: f64 = 0.9;
+/// Evidence from which an abrupt end speaks for a surface: a small one has hardly begun to leave it.
+const GONE_FAR: i64 = 50;
+/// What lies beside an abrupt end lies at least so many root mean squares of its own vertices off it. Measured on 386
+/// meshes of 138 parts: 400 to 700 are alike, 1200 loses true cylinders of 50 vertices.
+const ABRUPT: f64 = 700.0;
 
 /// Which regions can be trusted, one a region.
 pub(crate) fn trusted(view: View, topology: &Topology, regions: &Regions) -> Vec<bool> {
@@ -38,6 +42,8 @@ fn spread(view: View, topology: &Topology, regions: &Regions, trusted: &mut [boo
     any
 }
 
+/// Is enough of a region's border natural? Walls say nothing: each tile of a narrow band between two walls has walls
+/// on most of its border.
 fn is_natural(
     view: View,
     topology: &Topology,
@@ -50,9 +56,7 @@ fn is_natural(
     if own.surface.kind == Kind::Plane || exact {
         return true;
     }
-    if own.strong && own.evidence >= LARGE && ends_abruptly(view, regions, region) {
-        return true;
-    }
+    let far = own.strong && own.evidence >= GONE_FAR;
     let flat = MUCH_LARGER * view.area(&own.pieces) / own.pieces.len() as f64;
     let [mut walls, mut natural, mut whole] = [0.0; 3];
     for &piece in &own.pieces {
@@ -80,7 +84,7 @@ fn is_natural(
                     && !both_small
                     && (own.exact || regions.all[owner as usize].exact)
             };
-            if speaks {
+            if speaks || far && ends_abruptly(view, own, across) {
                 natural += at.length;
             }
         }
@@ -88,49 +92,20 @@ fn is_natural(
     if whole - walls <= 0.0 {
         return true;
     }
-    let share = if own.evidence < SMALL {
-        natural / (whole - walls)
-    } else {
-        (walls + natural) / whole
-    };
     let least = if own.evidence < TINY {
         NATURAL_SHARE_OF_TINY
     } else {
         NATURAL_SHARE
     };
-    share >= least
+    natural >= least * (whole - walls)
 }
 
-/// Evidence from which an abrupt end is asked of a surface: a small one has hardly begun to leave it.
-const LARGE: i64 = 100;
-/// Share of its border along which a surface ends abruptly, if it is one.
-const ABRUPT_SHARE: f64 = 0.75;
-/// What lies beside the end of a surface lies at least so many tolerances off it.
-const ABRUPT: f64 = 25.0;
-
-/// Does a region that only comes near its surface end as surfaces do? A true one ends at walls, or where the
-/// next piece lies far off it; a free form leaves the surface it came near by and by.
-fn ends_abruptly(view: View, regions: &Regions, region: u32) -> bool {
-    let own = &regions.all[region as usize];
-    let [mut abrupt, mut whole] = [0.0; 2];
-    for &piece in &own.pieces {
-        for &link in view.pieces.around.row(piece) {
-            let at = &view.pieces.links[link as usize];
-            let across = at.across(piece);
-            if regions.owner[across as usize] == region {
-                continue;
-            }
-            whole += at.length;
-            let farthest = || {
-                let vertices = view.pieces.vertices.row(across).iter();
-                vertices
-                    .map(|&v| own.surface.distance(view.positions[v as usize]).abs())
-                    .fold(0.0, f64::max)
-            };
-            if at.wall || farthest() >= ABRUPT * own.tolerance {
-                abrupt += at.length;
-            }
-        }
-    }
-    abrupt >= ABRUPT_SHARE * whole
+/// Does a region end here as surfaces do, with what comes next far off it? A free form leaves the surface it came near
+/// by and by.
+fn ends_abruptly(view: View, region: &Hypothesis, across: u32) -> bool {
+    let vertices = view.pieces.vertices.row(across).iter();
+    let farthest = vertices
+        .map(|&v| region.surface.distance(view.positions[v as usize]).abs())
+        .fold(0.0, f64::max);
+    farthest >= ABRUPT * region.rms
 }

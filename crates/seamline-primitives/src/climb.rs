@@ -32,6 +32,7 @@ impl<'a> Ground<'a> {
     pub fn seen(self, pieces: &'a Pieces) -> View<'a> {
         View {
             precision: self.precision,
+            noise: self.noise,
             positions: self.positions,
             triangles: self.triangles,
             pieces,

@@ -35,6 +35,8 @@ pub(crate) struct Hypothesis {
 pub(crate) struct View<'a> {
     /// Root mean square distance up to which vertices lie on a surface exactly.
     pub precision: f64,
+    /// Standard deviation of the vertices from the designed surface; 0 where they are exact.
+    pub noise: f64,
     pub positions: &'a [DVec3],
     pub triangles: &'a Triangles,
     pub pieces: &'a Pieces,

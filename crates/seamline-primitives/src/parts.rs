@@ -121,7 +121,9 @@ fn is_plane(
             tangent += at.length;
         }
     }
-    pieces.areas[piece as usize] > MUCH_LARGER * largest || tangent > TANGENT_SHARE * smooth
+    // A triangle is flat whatever it lies on: among slivers of a free form many are larger than all about them.
+    let large = vertices.len() > 3 && pieces.areas[piece as usize] > MUCH_LARGER * largest;
+    large || tangent > TANGENT_SHARE * smooth
 }
 
 /// A part on the way to others.

@@ -7,8 +7,8 @@
 use std::collections::VecDeque;
 
 use rayon::prelude::*;
-use seamline_ecs::LabelledMesh;
 use seamline_ecs::components::FaceLabel;
+use seamline_ecs::{EdgeScores, LabelledMesh};
 use seamline_mesh::Sets;
 
 /// Triangles that turn by less than this are one piece, as with facets.
@@ -30,8 +30,17 @@ const BETTER: f64 = 1.0 + 1e-9;
 /// bore another label.
 ///
 /// Each change lowers the sum of all costs, so it ends.
-pub fn straighten(mesh: &LabelledMesh<'_>, rough: &[u32], vote_weight: f64) -> Vec<FaceLabel> {
-    let pieces = Pieces::of(mesh);
+pub fn straighten(
+    mesh: &LabelledMesh<'_>,
+    scores: &dyn EdgeScores,
+    rough: &[u32],
+    vote_weight: f64,
+) -> Vec<FaceLabel> {
+    let mut pieces = Pieces::of(mesh);
+    let cost_of = |edge: u32| match mesh.sharp[edge as usize].0 {
+        true => 0.0,
+        false => mesh.edge_length(edge as usize) * scores.of(edge) / 90.0,
+    };
     let mut active: Vec<u32> = rough
         .iter()
         .filter_map(|&edge| mesh.topology.face_pair(edge as usize))
@@ -39,10 +48,13 @@ pub fn straighten(mesh: &LabelledMesh<'_>, rough: &[u32], vote_weight: f64) -> V
         .collect();
     active.sort_unstable();
     active.dedup();
+    active
+        .iter()
+        .for_each(|&piece| pieces.weigh_sides(piece, cost_of));
     let mut labels = share_out(&pieces, &active, vote_weight);
-    settle(&pieces, &active, vote_weight, &mut labels);
+    settle(&mut pieces, cost_of, &active, vote_weight, &mut labels);
     while move_groups(&pieces, &active, vote_weight, &mut labels) {
-        settle(&pieces, &active, vote_weight, &mut labels);
+        settle(&mut pieces, cost_of, &active, vote_weight, &mut labels);
     }
     let label = |&piece: &u32| FaceLabel(labels[piece as usize]);
     pieces.of_face.iter().map(label).collect()
@@ -88,13 +100,20 @@ fn share_out(pieces: &Pieces, active: &[u32], vote_weight: f64) -> Vec<u32> {
 }
 
 /// Gives active pieces, and those beside pieces that have changed, the label of least cost until none changes.
-fn settle(pieces: &Pieces, active: &[u32], vote_weight: f64, labels: &mut [u32]) {
+fn settle(
+    pieces: &mut Pieces,
+    cost_of: impl Fn(u32) -> f64 + Copy,
+    active: &[u32],
+    vote_weight: f64,
+    labels: &mut [u32],
+) {
     let mut waits = vec![false; pieces.count()];
     active
         .iter()
         .for_each(|&piece| waits[piece as usize] = true);
     let mut queue: VecDeque<u32> = active.iter().copied().collect();
     while let Some(piece) = queue.pop_front() {
+        pieces.weigh_sides(piece, cost_of);
         let piece = piece as usize;
         waits[piece] = false;
         let weight = vote_weight * pieces.perimeters[piece];
@@ -201,8 +220,10 @@ struct Pieces {
     /// A label, and the share of the piece that bears it; half as much again as it could be for a label that is nowhere
     /// else.
     votes: Vec<(u32, f64)>,
-    /// The piece beyond, and what a boundary there would cost.
+    /// The piece beyond, and what a boundary there would cost; not a number before it is weighed.
     sides: Vec<(u32, f64)>,
+    /// The edge of each side.
+    side_edges: Vec<u32>,
 }
 
 impl Pieces {
@@ -224,21 +245,15 @@ impl Pieces {
             *area = share(whole) * (1.0 + share(of_label)) / 2.0;
         }
         let mut perimeters = vec![0.0; count];
-        let mut sides: Vec<(u32, u32, f64)> = Vec::new();
-        for edge in 0..mesh.scores.len() {
+        let mut sides: Vec<(u32, u32, u32)> = Vec::new();
+        for edge in 0..mesh.angles.len() {
             let Some(faces) = mesh.topology.face_pair(edge) else {
                 continue;
             };
             let [p, q] = faces.map(|face| of_face[face as usize]);
             if p != q {
                 let length = mesh.edge_length(edge);
-                let score = if mesh.sharp[edge].0 {
-                    0.0
-                } else {
-                    mesh.scores[edge].0
-                };
-                let cost = length * score / 90.0;
-                sides.extend([(p, q, cost), (q, p, cost)]);
+                sides.extend([(p, q, edge as u32), (q, p, edge as u32)]);
                 perimeters[p as usize] += length;
                 perimeters[q as usize] += length;
             }
@@ -265,9 +280,23 @@ impl Pieces {
                 .map(|(_, label, share)| (label, share))
                 .collect(),
             sides: sides
-                .into_iter()
-                .map(|(_, other, cost)| (other, cost))
+                .iter()
+                .map(|&(_, other, _)| (other, f64::NAN))
                 .collect(),
+            side_edges: sides.into_iter().map(|(.., edge)| edge).collect(),
+        }
+    }
+
+    /// Has the costs of a piece's sides known.
+    fn weigh_sides(&mut self, piece: u32, cost_of: impl Fn(u32) -> f64) {
+        let range = self.starts[piece as usize][1]..self.starts[piece as usize + 1][1];
+        for ((_, cost), &edge) in self.sides[range.clone()]
+            .iter_mut()
+            .zip(&self.side_edges[range])
+        {
+            if cost.is_nan() {
+                *cost = cost_of(edge);
+            }
         }
     }
 

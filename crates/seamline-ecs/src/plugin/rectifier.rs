@@ -1,5 +1,8 @@
 //! Rectifiers: cleaner boundaries for a labelled mesh.
 
+use std::cell::Cell;
+use std::sync::Arc;
+
 use bevy_ecs::prelude::*;
 use bevy_ecs::system::SystemParam;
 use seamline_mesh::{Mesh, Topology};
@@ -23,10 +26,48 @@ pub trait Rectifier: StepSettings {
     /// Where it cannot do its work on this mesh: the job ends with this reason.
     fn rectify(&self, mesh: &LabelledMesh<'_>) -> Result<Labels, StepError>;
 
-    /// The labels [`Rectifier::rectify`] would give, if they are the same whatever the scores. Asked where boundaries were
-    /// given, before there are any scores (`mesh.scores` is empty); after an answer none are computed.
-    fn without_scores(&self, _mesh: &LabelledMesh<'_>) -> Option<Labels> {
+    /// The labels [`Rectifier::rectify`] would give, found with the scores of a few edges alone. Asked where boundaries
+    /// were given, before there are any scores (`mesh.scores` is empty): each is computed when it is asked for, with the
+    /// curvature that it needs. `None` has all of them computed, and `rectify` called.
+    fn rectify_asking(&self, _mesh: &LabelledMesh<'_>, _scores: &dyn EdgeScores) -> Option<Labels> {
         None
+    }
+}
+
+/// How badly each edge would serve as a boundary, to be asked edge by edge.
+pub trait EdgeScores {
+    /// The score of an edge, 0 (well) to 90 degrees.
+    fn of(&self, edge: u32) -> f64;
+}
+
+impl EdgeScores for &[BoundaryScore] {
+    fn of(&self, edge: u32) -> f64 {
+        self[edge as usize].0
+    }
+}
+
+/// Computes scores one at a time, for a mesh that is lent without any. Put into the world by the steps that know how.
+#[derive(Resource, Clone)]
+pub struct ScoresOnDemand(pub MakeScores);
+
+/// What makes the function from edges to scores of one mesh.
+pub type MakeScores =
+    Arc<dyn for<'a> Fn(LabelledMesh<'a>) -> Box<dyn Fn(u32) -> f64 + 'a> + Send + Sync>;
+
+/// Scores that are computed when they are asked for, each once.
+struct Asked<'a> {
+    compute: Box<dyn Fn(u32) -> f64 + 'a>,
+    /// Not a number where it was not asked for.
+    known: Vec<Cell<f64>>,
+}
+
+impl EdgeScores for Asked<'_> {
+    fn of(&self, edge: u32) -> f64 {
+        let known = &self.known[edge as usize];
+        if known.get().is_nan() {
+            known.set((self.compute)(edge));
+        }
+        known.get()
     }
 }
 
@@ -43,12 +84,12 @@ pub struct Labels {
     pub counts: Vec<(&'static str, usize)>,
 }
 
-/// What the rectifier has answered before there were scores.
+/// What the rectifier has answered where scores were computed as it asked for them.
 #[derive(Resource, Clone, Debug, Default)]
 pub struct Answered(pub(crate) Option<Labels>);
 
 impl Answered {
-    /// Is there an answer that needs no scores?
+    /// Is there an answer already?
     pub fn is_there(&self) -> bool {
         self.0.is_some()
     }
@@ -163,18 +204,30 @@ impl BoundaryColumns<'_, '_> {
     }
 }
 
-/// The system that asks for an answer before there are scores ([`Rectifier::without_scores`]).
+/// The system that asks for an answer before there are scores ([`Rectifier::rectify_asking`]).
 pub(crate) fn early_systems(
-    without_scores: impl Fn(&LabelledMesh<'_>) -> Option<Labels> + Send + Sync + 'static,
+    rectify: impl Fn(&LabelledMesh<'_>, &dyn EdgeScores) -> Option<Labels> + Send + Sync + 'static,
 ) -> StageSystems {
     let system = move |columns: BoundaryColumns,
                        labels: Column<FaceLabel>,
-                       mut answered: ResMut<Answered>| {
+                       on_demand: Option<Res<ScoresOnDemand>>,
+                       mut answered: ResMut<Answered>,
+                       mut counts: ResMut<Counts>| {
+        let Some(on_demand) = on_demand else { return };
         let seen = LabelledMesh {
             scores: &[],
             ..columns.lend(&labels)
         };
-        answered.0 = without_scores(&seen);
+        let scores = Asked {
+            compute: (on_demand.0)(seen),
+            known: vec![Cell::new(f64::NAN); seen.angles.len()],
+        };
+        answered.0 = rectify(&seen, &scores);
+        if answered.is_there() {
+            let known = scores.known.iter();
+            let asked = known.filter(|score| !score.get().is_nan()).count();
+            counts.note(Stage::Score, "edges_scored", asked);
+        }
     };
     system.into_configs()
 }

@@ -182,7 +182,7 @@ impl Bare {
         let ground = Ground {
             topology,
             positions,
-            scores: &&scores[..],
+            evidence: &&scores[..],
             turn_weight: settings.turn_weight,
             max_gap: f64::INFINITY,
         };

@@ -28,9 +28,9 @@ pub use job::{
 };
 pub use pipeline::{BuiltinSteps, InstallStep, Pipeline, PipelineKind, PipelineSettings, tables};
 pub use plugin::{
-    Answered, Classifier, Clusters, CommandSettings, CurvatureSamples, EdgeScores, EndFate,
-    LabelledMesh, Labels, MakeScores, MakeSystems, OpenEnd, OpenEnds, PluginChoice, PluginEntry,
-    Rectifier, Registry, ScoresOnDemand, SwappableStage, boundary, classifier_systems,
+    Answered, Classifier, Clusters, CommandSettings, CurvatureSamples, EndFate, Evidence,
+    EvidenceOnDemand, LabelledMesh, Labels, MakeEvidence, MakeSystems, OpenEnd, OpenEnds,
+    PluginChoice, PluginEntry, Rectifier, Registry, SwappableStage, boundary, classifier_systems,
     rectifier_systems,
 };
 pub use results::Segmentation;

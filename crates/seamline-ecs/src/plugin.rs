@@ -42,8 +42,8 @@ use crate::stage::{Stage, StepError};
 pub use choice::{CommandSettings, PluginChoice};
 pub use classifier::{Classifier, Clusters, CurvatureSamples, classifier_systems};
 pub use rectifier::{
-    Answered, EdgeScores, EndFate, LabelledMesh, Labels, MakeScores, OpenEnd, OpenEnds, Rectifier,
-    ScoresOnDemand, boundary, rectifier_systems,
+    Answered, EndFate, Evidence, EvidenceOnDemand, LabelledMesh, Labels, MakeEvidence, OpenEnd,
+    OpenEnds, Rectifier, boundary, rectifier_systems,
 };
 pub use registry::{MakeSystems, OutsideSystems, PluginEntry, Registry};
 

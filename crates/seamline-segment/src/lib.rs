@@ -84,7 +84,7 @@ pub fn builtin_steps() -> BuiltinSteps {
         install,
         idle: |kind| match kind {
             PipelineKind::Segment => &[HardEdgeSettings::TABLE, RefineSettings::TABLE],
-            PipelineKind::Rectify => &[SurfaceSettings::TABLE, MergeSettings::TABLE],
+            PipelineKind::Rectify => &[MergeSettings::TABLE],
         },
     }
 }
@@ -127,9 +127,13 @@ fn install(in_force: &Table) -> Result<InstallStep, SettingsError> {
                     segment(schedule, curvature.carrier, enriched);
                 }
                 PipelineKind::Rectify => {
-                    let scores =
-                        on_demand::scores(curvature.clone(), facets.clone(), score.clone());
-                    world.insert_resource(scores);
+                    let evidence = on_demand::evidence(
+                        curvature.clone(),
+                        facets.clone(),
+                        score.clone(),
+                        surfaces.clone(),
+                    );
+                    world.insert_resource(evidence);
                     rectify(schedule, curvature.carrier);
                 }
             }

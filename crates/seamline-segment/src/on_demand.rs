@@ -1,4 +1,5 @@
-//! Scores of single edges, with no more curvature than each of them needs: a rectifier looks at a few edges of many.
+//! Evidence for a rectifier, which looks at a few edges of many: scores of single edges, with no more curvature than each
+//! of them needs, and surfaces, where it asks for them.
 //!
 //! Whatever is computed here is the same to the last bit as where all of it is computed.
 
@@ -7,20 +8,22 @@ use std::rc::Rc;
 use std::sync::Arc;
 
 use seamline_ecs::components::{NONE, Sample, VertexCurvature};
-use seamline_ecs::{LabelledMesh, ScoresOnDemand};
+use seamline_ecs::{Evidence, EvidenceOnDemand, LabelledMesh};
 
 use crate::curvature::{Carrier, CurvatureSettings, vertex_curvature};
 use crate::facets::{FacetSettings, FacetSum, are_alike, filtered};
 use crate::score::{ScoreSettings, along, facet_score, vertex_score};
+use crate::surfaces::{SurfaceSettings, exact_surfaces};
 use crate::tensor::{Bending, face_tensor};
 
-/// Scores by the carrier of curvature.
-pub(crate) fn scores(
+/// Scores by the carrier of curvature, and surfaces if they are looked for.
+pub(crate) fn evidence(
     curvature: CurvatureSettings,
     facets: FacetSettings,
     score: ScoreSettings,
-) -> ScoresOnDemand {
-    ScoresOnDemand(Arc::new(move |mesh: LabelledMesh<'_>| {
+    surfaces: SurfaceSettings,
+) -> EvidenceOnDemand {
+    EvidenceOnDemand(Arc::new(move |mesh: LabelledMesh<'_>| {
         let bending = Bending {
             topology: mesh.topology,
             positions: mesh.positions,
@@ -28,18 +31,47 @@ pub(crate) fn scores(
             angles: mesh.angles,
             sharp: mesh.sharp,
         };
-        let weight = score.curvature_weight;
-        match curvature.carrier {
-            Carrier::Vertices => {
-                let vertices = SomeVertices::new(bending, curvature.clone());
-                Box::new(move |edge| vertices.score(edge, weight))
-            }
-            Carrier::Facets => {
-                let facets = SomeFacets::new(bending, facets.clone());
-                Box::new(move |edge| facets.score(edge, weight))
-            }
-        }
+        let scores = match curvature.carrier {
+            Carrier::Vertices => Scores::ByVertices(SomeVertices::new(bending, curvature.clone())),
+            Carrier::Facets => Scores::ByFacets(SomeFacets::new(bending, facets.clone())),
+        };
+        Box::new(OnDemand {
+            mesh,
+            scores,
+            weight: score.curvature_weight,
+            surfaces: surfaces.clone(),
+        })
     }))
+}
+
+struct OnDemand<'a> {
+    mesh: LabelledMesh<'a>,
+    scores: Scores<'a>,
+    /// Of curvature against angles ([`ScoreSettings`]).
+    weight: f64,
+    surfaces: SurfaceSettings,
+}
+
+enum Scores<'a> {
+    ByVertices(SomeVertices<'a>),
+    ByFacets(SomeFacets<'a>),
+}
+
+impl Evidence for OnDemand<'_> {
+    fn score(&self, edge: u32) -> f64 {
+        match &self.scores {
+            Scores::ByVertices(vertices) => vertices.score(edge, self.weight),
+            Scores::ByFacets(facets) => facets.score(edge, self.weight),
+        }
+    }
+
+    fn surfaces(&self) -> Vec<u32> {
+        if self.surfaces.enabled {
+            exact_surfaces(&self.surfaces, &self.mesh)
+        } else {
+            Vec::new()
+        }
+    }
 }
 
 /// Curvature at vertices somebody has asked for.

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 use seamline_ecs::components::{ContourState, Position};
-use seamline_ecs::{EdgeScores, EndFate, OpenEnd};
+use seamline_ecs::{EndFate, Evidence, OpenEnd};
 use seamline_mesh::{EdgeKind, Topology};
 
 /// What contours run over, and what a step costs there.
@@ -13,7 +13,7 @@ pub struct Ground<'a> {
     /// One a vertex.
     pub positions: &'a [Position],
     /// Asked for as steps are weighed.
-    pub scores: &'a dyn EdgeScores,
+    pub evidence: &'a dyn Evidence,
     /// Weight of the turn against the score: `omega_theta` of the paper.
     pub turn_weight: f64,
     /// The longest piece that is added to close one open end.
@@ -24,7 +24,7 @@ impl Ground<'_> {
     /// What going on from `arriving` by `edge` costs, at the vertex between the two: `P = S + turn_weight * turn`
     /// of the paper, in degrees.
     pub(crate) fn step(&self, arriving: u32, at: u32, edge: u32) -> f64 {
-        self.scores.of(edge) + self.turn_weight * self.turn_deg(arriving, at, edge)
+        self.evidence.score(edge) + self.turn_weight * self.turn_deg(arriving, at, edge)
     }
 
     /// The turn from one edge into another at the vertex between them; straight on is 0.

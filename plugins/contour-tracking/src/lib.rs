@@ -4,6 +4,7 @@
 mod bridge;
 mod contours;
 mod mark;
+mod outvote;
 mod patches;
 mod straighten;
 mod stretches;
@@ -14,13 +15,14 @@ use schemars::JsonSchema;
 use seamline_ecs::components::{ContourState, FaceLabel, SharpEdge};
 use seamline_ecs::settings::{OutOfRange, Profile, StepSettings};
 use seamline_ecs::{
-    EdgeScores, EndFate, GivenAs, LabelledMesh, Labels, Rectifier, StepError, boundary,
+    EndFate, Evidence, GivenAs, LabelledMesh, Labels, Rectifier, StepError, boundary,
 };
 use serde::{Deserialize, Serialize};
 
 pub use bridge::bridge;
 pub use contours::Ground;
 pub use mark::{mark, mark_given, runs};
+pub use outvote::{Outvoted, outvote};
 pub use patches::patches;
 pub use straighten::straighten;
 pub use stretches::stretches;
@@ -139,17 +141,17 @@ impl Rectifier for ContourTrackingSettings {
     }
 
     /// Scores are asked for where what was given is doubted or turns, along gaps, and beside what is labelled anew.
-    fn rectify_asking(&self, mesh: &LabelledMesh<'_>, scores: &dyn EdgeScores) -> Option<Labels> {
-        Some(self.rectified(mesh, scores))
+    fn rectify_asking(&self, mesh: &LabelledMesh<'_>, evidence: &dyn Evidence) -> Option<Labels> {
+        Some(self.rectified(mesh, evidence))
     }
 }
 
 impl ContourTrackingSettings {
-    fn rectified(&self, mesh: &LabelledMesh<'_>, scores: &dyn EdgeScores) -> Labels {
+    fn rectified(&self, mesh: &LabelledMesh<'_>, evidence: &dyn Evidence) -> Labels {
         let ground = Ground {
             topology: mesh.topology,
             positions: mesh.positions,
-            scores,
+            evidence,
             turn_weight: self.turn_weight,
             max_gap: match (self.open_ends, self.max_gap_share) {
                 (ClosingRule::Leave, _) => 0.0,
@@ -226,8 +228,13 @@ impl ContourTrackingSettings {
             GivenAs::Labels => {
                 let rough = self.mark_labels(ground, mesh.sharp, labels, &mut states);
                 if !rough.is_empty() {
-                    *labels = straighten(mesh, ground.scores, &rough, self.vote_weight);
-                    self.mark_labels(ground, mesh.sharp, labels, &mut states);
+                    let proved;
+                    (*labels, proved) = straighten(mesh, ground.evidence, &rough, self.vote_weight);
+                    let mut sharp = mesh.sharp.to_vec();
+                    proved
+                        .iter()
+                        .for_each(|&edge| sharp[edge as usize].0 = true);
+                    self.mark_labels(ground, &sharp, labels, &mut states);
                 }
             }
         }
@@ -248,12 +255,12 @@ impl ContourTrackingSettings {
         let mut rough = Vec::new();
         let mut turns = vec![false; states.len()];
         for by_score in [false, true] {
-            let scores = WhereItTurns {
-                scores: ground.scores,
+            let evidence = WhereItTurns {
+                evidence: ground.evidence,
                 turns: &turns,
             };
             let seen = Ground {
-                scores: &scores,
+                evidence: &evidence,
                 ..*ground
             };
             mark(&seen, sharp, labels, self, states);
@@ -283,14 +290,14 @@ impl ContourTrackingSettings {
 
 /// The scores of edges in runs that turn; all others are as bad as can be.
 struct WhereItTurns<'a> {
-    scores: &'a dyn EdgeScores,
+    evidence: &'a dyn Evidence,
     turns: &'a [bool],
 }
 
-impl EdgeScores for WhereItTurns<'_> {
-    fn of(&self, edge: u32) -> f64 {
+impl Evidence for WhereItTurns<'_> {
+    fn score(&self, edge: u32) -> f64 {
         if self.turns[edge as usize] {
-            self.scores.of(edge)
+            self.evidence.score(edge)
         } else {
             90.0
         }

@@ -24,7 +24,7 @@ pub fn mark(
     states.fill(ContourState::Off);
     for &edge in &boundary {
         let by_sharpness = settings.sharp_is_correct && sharp[edge as usize].0;
-        if by_sharpness || ground.scores.of(edge) < settings.correct_below_deg {
+        if by_sharpness || ground.evidence.score(edge) < settings.correct_below_deg {
             states[edge as usize] = ContourState::Correct;
         }
     }
@@ -62,7 +62,7 @@ pub fn mark_given(
     }
     for (&edge, &run) in given.iter().zip(&run_of) {
         let believed = &mut believed[run as usize];
-        *believed = *believed || ground.scores.of(edge) < settings.correct_below_deg;
+        *believed = *believed || ground.evidence.score(edge) < settings.correct_below_deg;
     }
     let mut doubted = Vec::new();
     for (&edge, &run) in given.iter().zip(&run_of) {

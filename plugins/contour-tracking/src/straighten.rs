@@ -7,9 +7,11 @@
 use std::collections::VecDeque;
 
 use rayon::prelude::*;
-use seamline_ecs::components::FaceLabel;
-use seamline_ecs::{EdgeScores, LabelledMesh};
+use seamline_ecs::components::{FaceLabel, NONE};
+use seamline_ecs::{Evidence, LabelledMesh};
 use seamline_mesh::Sets;
+
+use crate::outvote::{Outvoted, outvote};
 
 /// Triangles that turn by less than this are one piece, as with facets.
 const FLAT_DEG: f64 = 0.1;
@@ -29,17 +31,27 @@ const BETTER: f64 = 1.0 + 1e-9;
 /// the edge (a sharp one costs nothing), and `vote_weight` times its perimeter times the share of its area that
 /// bore another label.
 ///
-/// Each change lowers the sum of all costs, so it ends.
+/// Each change lowers the sum of all costs, so it ends. Pieces whose label their [surface settles](outvote) do not change
+/// any more; the edges between those are given as proved.
 pub fn straighten(
     mesh: &LabelledMesh<'_>,
-    scores: &dyn EdgeScores,
+    evidence: &dyn Evidence,
     rough: &[u32],
     vote_weight: f64,
-) -> Vec<FaceLabel> {
-    let mut pieces = Pieces::of(mesh);
+) -> (Vec<FaceLabel>, Vec<u32>) {
+    let Outvoted {
+        labels,
+        settled_by,
+        proved,
+    } = outvote(mesh, &evidence.surfaces(), rough);
+    let mesh = &LabelledMesh {
+        labels: &labels,
+        ..*mesh
+    };
+    let mut pieces = Pieces::of(mesh, &settled_by);
     let cost_of = |edge: u32| match mesh.sharp[edge as usize].0 {
         true => 0.0,
-        false => mesh.edge_length(edge as usize) * scores.of(edge) / 90.0,
+        false => mesh.edge_length(edge as usize) * evidence.score(edge) / 90.0,
     };
     let mut active: Vec<u32> = rough
         .iter()
@@ -48,6 +60,7 @@ pub fn straighten(
         .collect();
     active.sort_unstable();
     active.dedup();
+    active.retain(|&piece| !pieces.settled[piece as usize]);
     active
         .iter()
         .for_each(|&piece| pieces.weigh_sides(piece, cost_of));
@@ -57,7 +70,7 @@ pub fn straighten(
         settle(&mut pieces, cost_of, &active, vote_weight, &mut labels);
     }
     let label = |&piece: &u32| FaceLabel(labels[piece as usize]);
-    pieces.of_face.iter().map(label).collect()
+    (pieces.of_face.iter().map(label).collect(), proved)
 }
 
 /// The label each piece leans to: the active ones lean as they vote themselves and as those beside them lean, all at
@@ -131,7 +144,8 @@ fn settle(
         }
         labels[piece] = best;
         for &(other, _) in pieces.sides(piece) {
-            if !std::mem::replace(&mut waits[other as usize], true) {
+            let other_waits = &mut waits[other as usize];
+            if !pieces.settled[other as usize] && !std::mem::replace(other_waits, true) {
                 queue.push_back(other);
             }
         }
@@ -214,6 +228,8 @@ fn most(sums: &[(u32, f64)], own: Option<u32>) -> u32 {
 /// Flat pieces of a labelled mesh. Where labels part one in earnest, each of its triangles is a piece.
 struct Pieces {
     of_face: Vec<u32>,
+    /// By piece: is its label settled by the surface it is?
+    settled: Vec<bool>,
     perimeters: Vec<f64>,
     /// By piece: where its votes and its sides begin.
     starts: Vec<[usize; 2]>,
@@ -227,9 +243,13 @@ struct Pieces {
 }
 
 impl Pieces {
-    fn of(mesh: &LabelledMesh<'_>) -> Self {
-        let of_face = pieces(mesh);
+    fn of(mesh: &LabelledMesh<'_>, settled_by: &[u32]) -> Self {
+        let of_face = pieces(mesh, settled_by);
         let count = of_face.iter().max().map_or(0, |&last| last as usize + 1);
+        let mut settled = vec![false; count];
+        for (&piece, &surface) in of_face.iter().zip(settled_by) {
+            settled[piece as usize] |= surface != NONE;
+        }
         let mut votes = votes(mesh, &of_face);
         let mut areas = vec![0.0; count];
         votes
@@ -273,6 +293,7 @@ impl Pieces {
         }
         Self {
             of_face,
+            settled,
             perimeters,
             starts,
             votes: votes
@@ -313,14 +334,17 @@ impl Pieces {
     }
 }
 
-fn pieces(mesh: &LabelledMesh<'_>) -> Vec<u32> {
+/// Faces of one surface that has settled their label are one piece, whatever the angles between them.
+fn pieces(mesh: &LabelledMesh<'_>, settled_by: &[u32]) -> Vec<u32> {
     let flat = FLAT_DEG.to_radians();
     let mut sets = Sets::new(mesh.labels.len());
     for (edge, angle) in mesh.angles.iter().enumerate() {
-        if !mesh.sharp[edge].0
-            && angle.0.abs() < flat
-            && let Some([a, b]) = mesh.topology.face_pair(edge)
-        {
+        let Some([a, b]) = mesh.topology.face_pair(edge) else {
+            continue;
+        };
+        let [on_a, on_b] = [a, b].map(|face| settled_by[face as usize]);
+        let is_flat = !mesh.sharp[edge].0 && angle.0.abs() < flat;
+        if on_a == on_b && (on_a != NONE || is_flat) {
             sets.unite(a, b);
         }
     }

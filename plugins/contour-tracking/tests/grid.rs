@@ -16,7 +16,7 @@ fn ground<'a>(
     Ground {
         topology,
         positions,
-        scores,
+        evidence: scores,
         turn_weight: 2.0,
         max_gap: f64::INFINITY,
     }

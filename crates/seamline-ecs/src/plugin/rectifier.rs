@@ -29,45 +29,56 @@ pub trait Rectifier: StepSettings {
     /// The labels [`Rectifier::rectify`] would give, found with the scores of a few edges alone. Asked where boundaries
     /// were given, before there are any scores (`mesh.scores` is empty): each is computed when it is asked for, with the
     /// curvature that it needs. `None` has all of them computed, and `rectify` called.
-    fn rectify_asking(&self, _mesh: &LabelledMesh<'_>, _scores: &dyn EdgeScores) -> Option<Labels> {
+    fn rectify_asking(&self, _mesh: &LabelledMesh<'_>, _evidence: &dyn Evidence) -> Option<Labels> {
         None
     }
 }
 
-/// How badly each edge would serve as a boundary, to be asked edge by edge.
-pub trait EdgeScores {
-    /// The score of an edge, 0 (well) to 90 degrees.
-    fn of(&self, edge: u32) -> f64;
+/// What speaks for boundaries and against them, to be asked piece by piece.
+pub trait Evidence {
+    /// How badly an edge would serve as a boundary, 0 (well) to 90 degrees.
+    fn score(&self, edge: u32) -> f64;
+
+    /// The surface each face lies on as exactly as the mesh has it, [`NONE`] where there is none; empty where none are
+    /// looked for. Looking for them costs more than all scores.
+    fn surfaces(&self) -> Vec<u32> {
+        Vec::new()
+    }
 }
 
-impl EdgeScores for &[BoundaryScore] {
-    fn of(&self, edge: u32) -> f64 {
+impl Evidence for &[BoundaryScore] {
+    fn score(&self, edge: u32) -> f64 {
         self[edge as usize].0
     }
 }
 
-/// Computes scores one at a time, for a mesh that is lent without any. Put into the world by the steps that know how.
+/// Computes evidence when it is asked for, for a mesh that is lent without any. Put into the world by the steps that
+/// know how.
 #[derive(Resource, Clone)]
-pub struct ScoresOnDemand(pub MakeScores);
+pub struct EvidenceOnDemand(pub MakeEvidence);
 
-/// What makes the function from edges to scores of one mesh.
-pub type MakeScores =
-    Arc<dyn for<'a> Fn(LabelledMesh<'a>) -> Box<dyn Fn(u32) -> f64 + 'a> + Send + Sync>;
+/// What makes the evidence of one mesh.
+pub type MakeEvidence =
+    Arc<dyn for<'a> Fn(LabelledMesh<'a>) -> Box<dyn Evidence + 'a> + Send + Sync>;
 
-/// Scores that are computed when they are asked for, each once.
+/// Evidence of which each score is computed once.
 struct Asked<'a> {
-    compute: Box<dyn Fn(u32) -> f64 + 'a>,
+    evidence: Box<dyn Evidence + 'a>,
     /// Not a number where it was not asked for.
     known: Vec<Cell<f64>>,
 }
 
-impl EdgeScores for Asked<'_> {
-    fn of(&self, edge: u32) -> f64 {
+impl Evidence for Asked<'_> {
+    fn score(&self, edge: u32) -> f64 {
         let known = &self.known[edge as usize];
         if known.get().is_nan() {
-            known.set((self.compute)(edge));
+            known.set(self.evidence.score(edge));
         }
         known.get()
+    }
+
+    fn surfaces(&self) -> Vec<u32> {
+        self.evidence.surfaces()
     }
 }
 
@@ -206,11 +217,11 @@ impl BoundaryColumns<'_, '_> {
 
 /// The system that asks for an answer before there are scores ([`Rectifier::rectify_asking`]).
 pub(crate) fn early_systems(
-    rectify: impl Fn(&LabelledMesh<'_>, &dyn EdgeScores) -> Option<Labels> + Send + Sync + 'static,
+    rectify: impl Fn(&LabelledMesh<'_>, &dyn Evidence) -> Option<Labels> + Send + Sync + 'static,
 ) -> StageSystems {
     let system = move |columns: BoundaryColumns,
                        labels: Column<FaceLabel>,
-                       on_demand: Option<Res<ScoresOnDemand>>,
+                       on_demand: Option<Res<EvidenceOnDemand>>,
                        mut answered: ResMut<Answered>,
                        mut counts: ResMut<Counts>| {
         let Some(on_demand) = on_demand else { return };
@@ -218,13 +229,13 @@ pub(crate) fn early_systems(
             scores: &[],
             ..columns.lend(&labels)
         };
-        let scores = Asked {
-            compute: (on_demand.0)(seen),
+        let evidence = Asked {
+            evidence: (on_demand.0)(seen),
             known: vec![Cell::new(f64::NAN); seen.angles.len()],
         };
-        answered.0 = rectify(&seen, &scores);
+        answered.0 = rectify(&seen, &evidence);
         if answered.is_there() {
-            let known = scores.known.iter();
+            let known = evidence.known.iter();
             let asked = known.filter(|score| !score.get().is_nan()).count();
             counts.note(Stage::Score, "edges_scored", asked);
         }

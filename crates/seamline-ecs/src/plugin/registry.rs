@@ -60,7 +60,7 @@ impl PluginEntry {
             let settings: R = settings::read(in_force)?;
             Ok(Arc::new(move || {
                 let settings = settings.clone();
-                early_systems(move |mesh, scores| settings.rectify_asking(mesh, scores))
+                early_systems(move |mesh, evidence| settings.rectify_asking(mesh, evidence))
             }))
         };
         Self {

@@ -65,6 +65,18 @@ fn rough_labels_of_a_smooth_cube_are_mended_alike_on_any_number_of_threads() {
     assert!(after > 0.9, "{before} becomes {after}");
 }
 
+/// Where surfaces are not looked for, a strip of a cylinder that went over to a fillet is as good there.
+#[test]
+fn rough_labels_of_a_shaft_are_mended_by_the_surfaces_it_lies_on() {
+    let shaft = shapes::shaft(24, 4);
+    let truth = shaft.patches.clone();
+    let mesh = Arc::new(weld(shaft.polygons(), 0.0));
+    let rough = roughened(&mesh, &truth);
+    let without = rectified(&mesh, &rough, &["surfaces.enabled=false"]);
+    assert!(!same_partition(&without, &truth));
+    assert!(same_partition(&rectified(&mesh, &rough, &[]), &truth));
+}
+
 #[test]
 fn labels_of_one_mesh_do_not_serve_the_next() {
     let (mesh, truth) = cube();
@@ -114,7 +126,7 @@ fn what_is_asked_for_edge_by_edge_gives_the_patches_that_all_scores_give() {
                 .with_rectifier::<ContourTrackingSettings>()
                 .with_rectifier::<AllScores>();
             let settings = format!(
-                "hard-edges.strong_deg = 30.0\n[pipeline]\nkind = 'rectify'\nprofile = '{profile}'\nrectifier = '{rectifier}'"
+                "hard-edges.strong_deg = 30.0\nsurfaces.enabled = false\n[pipeline]\nkind = 'rectify'\nprofile = '{profile}'\nrectifier = '{rectifier}'"
             );
             let settings = settings.parse().expect("these are settings");
             let pipeline = Pipeline::assemble(&builtin_steps(), &registry, &settings);

@@ -22,7 +22,8 @@ use crate::grow::{Grown, mean_curvatures};
 #[serde(deny_unknown_fields)]
 pub struct SurfaceSettings {
     /// Are surfaces looked for? Where surfaces explain a mesh no classifier is
-    /// asked: so not by default where a classifier other than the default one is chosen.
+    /// asked: so not by default where a classifier other than the default one is chosen. In `rectify`: are labels held
+    /// against them where their boundaries are rough?
     pub enabled: bool,
     /// Share of the area that must lie exactly on surfaces for the patches to follow from them; below it
     /// (noise, scans, natural shapes) curvature leads. The least of the bench is .06, a

@@ -7,6 +7,8 @@
 use seamline_ecs::LabelledMesh;
 use seamline_ecs::components::{FaceLabel, NONE};
 
+use crate::straighten::{is_shared, votes};
+
 /// Labels after surfaces have had their say.
 pub struct Outvoted {
     /// One a face.
@@ -18,7 +20,8 @@ pub struct Outvoted {
 }
 
 /// Gives each surface beside `rough` edges the label that most of it bears; a label that is nowhere else counts up to
-/// twice. A surface where two labels have more than half of all they have is parted by somebody's will, and left.
+/// twice. A surface is parted by somebody's will, and left, where two labels have more than half of all they have, or where
+/// two that are at home nowhere share it.
 ///
 /// `surfaces` has one a face, [`NONE`] where there is none, or is empty.
 pub fn outvote(mesh: &LabelledMesh<'_>, surfaces: &[u32], rough: &[u32]) -> Outvoted {
@@ -31,48 +34,19 @@ pub fn outvote(mesh: &LabelledMesh<'_>, surfaces: &[u32], rough: &[u32]) -> Outv
         return outvoted;
     };
     let mut is_rough = vec![false; last as usize + 1];
-    for faces in rough
+    let pairs = rough
         .iter()
-        .filter_map(|&e| mesh.topology.face_pair(e as usize))
-    {
-        for surface in faces.map(|face| surfaces[face as usize]) {
-            if surface != NONE {
-                is_rough[surface as usize] = true;
-            }
+        .filter_map(|&edge| mesh.topology.face_pair(edge as usize));
+    for surface in pairs.flatten().map(|face| surfaces[face as usize]) {
+        if surface != NONE {
+            is_rough[surface as usize] = true;
         }
     }
-    let mut label_areas = vec![0.0; mesh.labels.len()];
-    let mut votes: Vec<(u32, u32, f64)> = Vec::new();
-    for ((&surface, label), shape) in surfaces.iter().zip(mesh.labels).zip(mesh.shapes) {
-        label_areas[label.0 as usize] += shape.area;
-        if surface != NONE && is_rough[surface as usize] {
-            votes.push((surface, label.0, shape.area));
+    let mut winner = winners(mesh, surfaces, last as usize + 1);
+    for (winner, is_rough) in winner.iter_mut().zip(is_rough) {
+        if !is_rough {
+            *winner = NONE;
         }
-    }
-    votes.sort_by_key(|&(surface, label, _)| (surface, label));
-    votes.dedup_by(|next, sum| {
-        let same = (next.0, next.1) == (sum.0, sum.1);
-        if same {
-            sum.2 += next.2;
-        }
-        same
-    });
-    let mut winner = vec![NONE; last as usize + 1];
-    for of_surface in votes.chunk_by(|a, b| a.0 == b.0) {
-        let share_of_label = |label: u32, area: f64| match label_areas[label as usize] {
-            0.0 => 0.0,
-            whole => area / whole,
-        };
-        let at_home = |&&(_, label, area): &&(u32, u32, f64)| share_of_label(label, area) > 0.5;
-        if of_surface.iter().filter(at_home).count() > 1 {
-            continue;
-        }
-        let weight =
-            |&(_, label, area): &(u32, u32, f64)| area * (1.0 + share_of_label(label, area));
-        let most = of_surface
-            .iter()
-            .max_by(|a, b| weight(a).total_cmp(&weight(b)).then(b.1.cmp(&a.1)));
-        winner[of_surface[0].0 as usize] = most.map_or(NONE, |vote| vote.1);
     }
     let faces = outvoted.labels.iter_mut().zip(&mut outvoted.settled_by);
     for ((label, settled_by), &surface) in faces.zip(surfaces) {
@@ -90,4 +64,49 @@ pub fn outvote(mesh: &LabelledMesh<'_>, surfaces: &[u32], rough: &[u32]) -> Outv
     };
     outvoted.proved = (0..mesh.angles.len() as u32).filter(parts).collect();
     outvoted
+}
+
+/// The label of each of so many surfaces, [`NONE`] where somebody has parted one.
+fn winners(mesh: &LabelledMesh<'_>, surfaces: &[u32], count: usize) -> Vec<u32> {
+    let votes = votes(mesh, surfaces);
+    let mut label_areas = vec![0.0; mesh.labels.len()];
+    for &(_, label, area) in &votes {
+        label_areas[label as usize] += area;
+    }
+    // Where most of a label is.
+    let mut home = vec![NONE; label_areas.len()];
+    for &(surface, label, area) in &votes {
+        if area > 0.5 * label_areas[label as usize] {
+            home[label as usize] = surface;
+        }
+    }
+    let mut faces = vec![0; count];
+    for &surface in surfaces.iter().filter(|&&surface| surface != NONE) {
+        faces[surface as usize] += 1;
+    }
+    let mut winner = vec![NONE; count];
+    for of_surface in votes.chunk_by(|a, b| a.0 == b.0) {
+        let surface = of_surface[0].0;
+        if surface == NONE {
+            continue;
+        }
+        let home_of = |vote: &(u32, u32, f64)| home[vote.1 as usize];
+        let at_home = of_surface.iter().filter(|vote| home_of(vote) == surface);
+        // What is at home elsewhere has only gone over.
+        let meant = of_surface
+            .iter()
+            .filter(|vote| [surface, NONE].contains(&home_of(vote)));
+        if at_home.count() > 1 || is_shared(faces[surface as usize], meant.map(|vote| vote.2)) {
+            continue;
+        }
+        let weight = |&(_, label, area): &(u32, u32, f64)| match label_areas[label as usize] {
+            0.0 => 0.0,
+            whole => area * (1.0 + area / whole),
+        };
+        let most = of_surface
+            .iter()
+            .max_by(|a, b| weight(a).total_cmp(&weight(b)).then(b.1.cmp(&a.1)));
+        winner[surface as usize] = most.map_or(NONE, |vote| vote.1);
+    }
+    winner
 }

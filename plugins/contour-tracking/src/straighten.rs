@@ -353,10 +353,8 @@ fn pieces(mesh: &LabelledMesh<'_>, settled_by: &[u32]) -> Vec<u32> {
     of_face.iter().for_each(|&piece| faces[piece as usize] += 1);
     let mut parted = vec![false; count];
     for votes in votes(mesh, &of_face).chunk_by(|a, b| a.0 == b.0) {
-        let whole: f64 = votes.iter().map(|vote| vote.2).sum();
-        let most = votes.iter().map(|vote| vote.2).fold(0.0, f64::max);
         let piece = votes[0].0 as usize;
-        parted[piece] = faces[piece] >= MANY && whole - most > MINORITY_SHARE * whole;
+        parted[piece] = is_shared(faces[piece], votes.iter().map(|vote| vote.2));
     }
     let mut next = count as u32;
     for piece in &mut of_face {
@@ -368,8 +366,15 @@ fn pieces(mesh: &LabelledMesh<'_>, settled_by: &[u32]) -> Vec<u32> {
     of_face
 }
 
+/// Do labels of these areas share so many faces by somebody's will?
+pub(crate) fn is_shared(faces: u32, areas: impl Iterator<Item = f64> + Clone) -> bool {
+    let whole: f64 = areas.clone().sum();
+    let most = areas.fold(0.0, f64::max);
+    faces >= MANY && whole - most > MINORITY_SHARE * whole
+}
+
 /// Piece, label, and the area of the one that bears the other; sorted, each pair once.
-fn votes(mesh: &LabelledMesh<'_>, of_face: &[u32]) -> Vec<(u32, u32, f64)> {
+pub(crate) fn votes(mesh: &LabelledMesh<'_>, of_face: &[u32]) -> Vec<(u32, u32, f64)> {
     let faces = of_face.iter().zip(mesh.labels).zip(mesh.shapes);
     let mut votes: Vec<(u32, u32, f64)> = faces
         .map(|((&piece, label), shape)| (piece, label.0, shape.area))

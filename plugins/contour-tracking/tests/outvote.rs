@@ -87,6 +87,17 @@ fn a_surface_that_two_labels_share_by_somebodys_will_is_left() {
     assert!(found.settled_by.iter().all(|&surface| surface == NONE));
 }
 
+/// Classes of faces, as a network gives them: each is on all surfaces, and has most of itself on none.
+#[test]
+fn a_surface_shared_by_labels_that_are_at_home_nowhere_is_left() {
+    let of_rows: Vec<u32> = (0..SIDE * SIDE)
+        .flat_map(|square| [u32::from(square / SIDE > 1); 2])
+        .collect();
+    let (found, _) = outvoted(&of_rows, &by_column(|x| x));
+    assert_eq!(labels(&found), of_rows);
+    assert!(found.proved.is_empty());
+}
+
 #[test]
 fn a_label_that_is_on_many_surfaces_keeps_all_of_them() {
     let halves = by_column(|x| x / 2);

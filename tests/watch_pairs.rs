@@ -143,3 +143,142 @@ fn a_dry_run_lists_pairs_by_their_mesh_and_markings_without_one_by_themselves() 
     names.sort_unstable();
     assert_eq!(names, ["alone.obj", "lone.seg", "part.obj"]);
 }
+
+/// The same without its last face, and its labels.
+fn open_cuboid() -> (String, String) {
+    let whole = cuboid(1.0);
+    let (open, _) = whole.trim_end().rsplit_once('\n').expect("it has faces");
+    let labels = labels();
+    (format!("{open}\n"), labels[..labels.len() - 2].to_owned())
+}
+
+/// As a PLY, with the same faces.
+fn as_ply(obj: &str) -> String {
+    let rows = |start: &str| -> Vec<Vec<&str>> {
+        let of = obj.lines().filter_map(|line| line.strip_prefix(start));
+        of.map(|line| line.split_whitespace().collect()).collect()
+    };
+    let [vertices, faces] = ["v ", "f "].map(rows);
+    let mut ply = format!(
+        "ply\nformat ascii 1.0\nelement vertex {}\nproperty float x\nproperty float y\nproperty float z\n\
+         element face {}\nproperty list uchar int vertex_indices\nend_header\n",
+        vertices.len(),
+        faces.len()
+    );
+    for vertex in vertices {
+        ply += &format!("{}\n", vertex.join(" "));
+    }
+    for face in faces {
+        let corners = face
+            .iter()
+            .map(|corner| corner.parse::<usize>().expect("a vertex"));
+        let corners: Vec<String> = corners.map(|corner| (corner - 1).to_string()).collect();
+        ply += &format!("{} {}\n", corners.len(), corners.join(" "));
+    }
+    ply
+}
+
+#[test]
+fn a_mesh_written_anew_before_its_labels_waits_for_them_and_is_cut_with_the_new_ones() {
+    for after in ["keep", "move"] {
+        let home = Home::with(&format!(
+            "stable_for_ms = 200\nmax_wait_ms = 60000\nafter = \"{after}\"\n{RULE}"
+        ));
+        let (open, five) = open_cuboid();
+        let daemon = home.start();
+        home.drop("pairs/part.seg", labels());
+        home.drop("pairs/part.obj", &open);
+        daemon.wait_for("they are found not to fit", || {
+            daemon.log().contains("labels for 5 faces")
+        });
+        assert!(home.reason("pairs/part.obj").is_none());
+        home.drop("pairs/part.seg", five);
+        daemon.wait_for("it is cut", || home.labels("pairs/part.obj") == 5);
+        assert_eq!(daemon.terminate(), Some(0));
+    }
+}
+
+#[test]
+fn labels_written_anew_after_their_mesh_was_cut_have_it_cut_again() {
+    let home = Home::with(&format!("stable_for_ms = 200\n{RULE}"));
+    let patches = || {
+        let report = home.results().report("pairs/part.obj");
+        report.and_then(|report| report["patches"].as_array().map(Vec::len))
+    };
+    let daemon = home.start();
+    home.drop("pairs/part.seg", labels());
+    home.drop("pairs/part.obj", cuboid(1.0));
+    daemon.wait_for("it is cut", || patches() == Some(6));
+    home.drop("pairs/part.obj", cuboid(2.0));
+    daemon.wait_for("it is cut with the labels that are there", || {
+        daemon.log().matches("cut in").count() == 2
+    });
+    home.drop("pairs/part.seg", "1\n".repeat(6));
+    daemon.wait_for("it is cut with the new ones", || patches() == Some(1));
+    assert_eq!(daemon.terminate(), Some(0));
+}
+
+#[test]
+fn requeue_joins_labels_that_came_too_late_with_their_mesh() {
+    let home = pairs(60_000);
+    let (open, five) = open_cuboid();
+    home.drop("pairs/part.obj", open);
+    home.drop("pairs/part.seg", labels());
+    home.once().ended(1);
+    assert!(home.reason("pairs/part.obj").is_some());
+    home.drop("pairs/part.seg", &five);
+    home.once().ended(1);
+    home.requeue(&["--all-quarantined"]);
+    let beside = fs::read_to_string(home.inbox().join("pairs/part.seg"));
+    assert_eq!(beside.expect("they are brought back"), five);
+    assert!(!home.inbox().join("pairs/part-1.seg").exists());
+    home.once().ended(0);
+    assert_eq!(home.labels("pairs/part.obj"), 5);
+}
+
+#[test]
+fn a_lone_half_that_was_requeued_waits_no_longer_once_it_is_part_of_a_pair() {
+    let home = Home::with(&format!("stable_for_ms = 200\nmax_wait_ms = 1000\n{RULE}"));
+    home.drop("pairs/part.seg", labels());
+    home.once().ended(1);
+    home.requeue(&["--all-quarantined"]);
+    home.drop("pairs/part.obj", cuboid(1.0));
+    home.once().ended(0);
+    assert_eq!(home.labels("pairs/part.obj"), 6);
+    let status = home.status();
+    assert_eq!(
+        status.counts.get("pending").copied().unwrap_or(0),
+        0,
+        "{status:?}"
+    );
+}
+
+#[test]
+fn meshes_of_one_stem_share_their_labels_which_are_moved_with_the_last_of_them() {
+    let home = pairs(60_000);
+    home.drop("pairs/part.obj", cuboid(1.0));
+    home.drop("pairs/part.ply", as_ply(&cuboid(2.0)));
+    home.drop("pairs/part.seg", labels());
+    home.once().ended(0);
+    for name in ["part.obj", "part.ply"] {
+        let name = format!("pairs/{name}");
+        assert_eq!(home.labels(&name), 6, "{name}");
+        assert!(home.at("done").join(&name).exists(), "{name}");
+    }
+    assert!(home.at("done/pairs/part.seg").exists());
+    assert!(!home.inbox().join("pairs/part.seg").exists());
+}
+
+#[test]
+fn a_mesh_that_fails_takes_a_copy_of_labels_that_another_needs() {
+    let home = pairs(60_000);
+    let (open, _) = open_cuboid();
+    home.drop("pairs/part.obj", open);
+    home.drop("pairs/part.ply", as_ply(&cuboid(1.0)));
+    home.drop("pairs/part.seg", labels());
+    home.once().ended(1);
+    assert_eq!(home.labels("pairs/part.ply"), 6);
+    assert!(home.reason("pairs/part.obj").is_some());
+    assert!(home.at("quarantine/pairs/part.seg").exists());
+    assert!(home.at("done/pairs/part.seg").exists());
+}

@@ -117,7 +117,7 @@ impl Bare {
             turned: false,
             given: None,
         };
-        describe(mesh, &rows, face_patches)
+        describe(mesh, &rows, face_patches, true)
     }
 
     fn grow_and_merge(&mut self, clusters: &[SampleCluster]) {
@@ -179,14 +179,14 @@ impl Bare {
             weight,
             scores,
         );
-        mark(topology, scores, &self.sharp, labels, &settings, states);
         let ground = Ground {
             topology,
             positions,
-            scores,
+            evidence: &&scores[..],
             turn_weight: settings.turn_weight,
             max_gap: f64::INFINITY,
         };
+        mark(&ground, &self.sharp, labels, &settings, states);
         track(ground, states);
         patches(topology, false, states, labels);
     }

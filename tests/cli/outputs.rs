@@ -2,6 +2,7 @@
 
 use std::collections::BTreeSet;
 
+use seamline_tests::daemon::without_seconds;
 use seamline_tests::same_partition;
 use serde_json::Value;
 
@@ -234,6 +235,34 @@ fn only_the_files_asked_for_are_written() {
         home.listed("bracket.obj.seamline"),
         ["boundaries.obj", "report.json"]
     );
+}
+
+/// Curvature that nobody has asked for is not computed; what is asked for must not miss it.
+#[test]
+fn each_file_is_the_same_whichever_others_are_written() {
+    let home = Home::new();
+    home.put_sample("shaft.stl");
+    for command in ["segment shaft.stl", "rectify shaft.stl --sharp-deg 40"] {
+        for profile in ["cad", "lavoue2005"] {
+            let command = format!("{command} --profile {profile}");
+            home.run(&format!("{command} -o all")).ended(0);
+            for (word, file) in [
+                ("labels", "labels.seg"),
+                ("patches", "patches.ply"),
+                ("boundaries", "boundaries.obj"),
+                ("report", "report.json"),
+            ] {
+                home.run(&format!("{command} -o alone --write {word}"))
+                    .ended(0);
+                let [mut all, mut alone] = ["all", "alone"]
+                    .map(|folder| home.read(&format!("{folder}/shaft.stl.seamline/{file}")));
+                if word == "report" {
+                    [all, alone] = [all, alone].map(|report| without_seconds(&report));
+                }
+                assert!(all == alone, "{file} of {command}");
+            }
+        }
+    }
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! The models with their truth.
 
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use seamline_mesh::{Mesh, Topology, read, weld};
@@ -29,12 +29,17 @@ pub fn models() -> Option<Vec<Model>> {
         .filter(|path| path.extension().is_some_and(|end| end == "stl"))
         .collect();
     paths.sort();
-    Some(paths.iter().filter_map(|path| load(path)).collect())
+    let of_variant = |path: &PathBuf| {
+        let model = load(path);
+        let variant = VARIANTS.iter().position(|v| model.name.ends_with(v))?;
+        Some(Model { variant, ..model })
+    };
+    Some(paths.iter().filter_map(of_variant).collect())
 }
 
-fn load(path: &Path) -> Option<Model> {
-    let name = path.file_stem()?.to_str()?.to_owned();
-    let variant = VARIANTS.iter().position(|v| name.ends_with(v))?;
+/// A model with its truth, as the first variant.
+pub fn load(path: &Path) -> Model {
+    let name = path.file_stem().unwrap_or_default();
     let mesh = weld(read(path).expect("the model reads"), 0.0);
     let labels = fs::read_to_string(path.with_extension("seg")).expect("its truth");
     let truth = labels
@@ -51,12 +56,12 @@ fn load(path: &Path) -> Option<Model> {
             normal(a).angle_between(normal(b)).to_degrees()
         })
     };
-    Some(Model {
-        name,
-        variant,
+    Model {
+        name: name.to_string_lossy().into_owned(),
+        variant: 0,
         turns: (0..topology.edge_faces.len()).map(turn).collect(),
         truth,
         mesh: Arc::new(mesh),
         topology,
-    })
+    }
 }

@@ -41,6 +41,24 @@ pub enum GivenAs {
     HardEdges,
 }
 
+/// What is told of finished patches beyond what finding them takes: all of it, unless somebody says that nobody reads it.
+#[derive(Resource, Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Told {
+    /// Mean and spread of curvature of each patch; 0 where they are not told.
+    pub patch_curvature: bool,
+    /// Curvature at each vertex; none where it is not told.
+    pub vertex_curvature: bool,
+}
+
+impl Default for Told {
+    fn default() -> Self {
+        Self {
+            patch_curvature: true,
+            vertex_curvature: true,
+        }
+    }
+}
+
 /// Edges and neighbours. While the mesh is enriched, those of the enriched mesh.
 #[derive(Resource, Default)]
 pub struct MeshTopology(pub Topology);

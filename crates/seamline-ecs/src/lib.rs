@@ -24,13 +24,14 @@ mod worker;
 pub use column::{Column, ColumnMut};
 pub use job::{
     Counts, GivenAs, GivenBoundary, InputMarkings, InputMesh, JobFailure, Measures, MeshScale,
-    MeshTopology, Settled,
+    MeshTopology, Settled, Told,
 };
 pub use pipeline::{BuiltinSteps, InstallStep, Pipeline, PipelineKind, PipelineSettings, tables};
 pub use plugin::{
-    Answered, Classifier, Clusters, CommandSettings, CurvatureSamples, EndFate, LabelledMesh,
-    Labels, MakeSystems, OpenEnd, OpenEnds, PluginChoice, PluginEntry, Rectifier, Registry,
-    SwappableStage, boundary, classifier_systems, rectifier_systems,
+    Answered, Classifier, Clusters, CommandSettings, CurvatureSamples, EndFate, Evidence,
+    EvidenceOnDemand, LabelledMesh, Labels, MakeEvidence, MakeSystems, OpenEnd, OpenEnds,
+    PluginChoice, PluginEntry, Rectifier, Registry, SwappableStage, boundary, classifier_systems,
+    rectifier_systems,
 };
 pub use results::Segmentation;
 pub use stage::{Scoring, Stage, StageSystems, StepError, fallible};

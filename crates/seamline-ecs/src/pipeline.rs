@@ -7,6 +7,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use toml::{Table, Value};
 
+use crate::job::Told;
 use crate::plugin::{MakeSystems, PluginChoice, PluginEntry, Registry, SwappableStage};
 use crate::settings::{self, OutOfRange, Profile, SettingsError, SettingsTable, StepSettings};
 use crate::stage::{Scoring, Stage};
@@ -86,6 +87,7 @@ pub struct Pipeline {
     in_force: Table,
     threads: usize,
     kind: PipelineKind,
+    told: Told,
 }
 
 impl Pipeline {
@@ -157,7 +159,14 @@ impl Pipeline {
             in_force,
             threads,
             kind,
+            told: Told::default(),
         })
+    }
+
+    /// The same pipeline, computing no more of what is only told than this.
+    pub fn telling(mut self, told: Told) -> Self {
+        self.told = told;
+        self
     }
 
     /// The settings in force, every default written out: what the results depend on, and no more (the
@@ -177,6 +186,7 @@ impl Pipeline {
     }
 
     pub(crate) fn install(&self, world: &mut World, schedule: &mut Schedule) {
+        world.insert_resource(self.told);
         for step in &self.install {
             step(world, schedule);
         }
@@ -256,7 +266,7 @@ fn choose(
     entry.map(|entry| (entry.systems)(in_force)).transpose()
 }
 
-/// What a rectifier can answer before there are scores is asked for ahead of them.
+/// A rectifier that asks for scores one at a time does so ahead of their being computed for all edges.
 fn install_early(make: MakeSystems) -> InstallStep {
     Arc::new(move |_: &mut World, schedule: &mut Schedule| {
         schedule.add_systems(make().in_set(Stage::Score).before(Scoring));

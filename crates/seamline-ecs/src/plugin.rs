@@ -13,6 +13,8 @@
 //! | writes | a cluster for every sample ([`Clusters`]) | a label for every face ([`Labels`]) |
 //! | range | clusters below the number of samples | labels below the number of faces |
 //!
+//! Where boundaries were given, a rectifier may ask for [`Evidence`] piece by piece instead ([`Rectifier::rectify_asking`]).
+//!
 //! **Name and settings.** The settings struct is [`StepSettings`]: its table of the configuration bears the
 //! plugin's name, every key is documented and has a default in each profile, unknown keys are refused
 //! (`#[serde(deny_unknown_fields)]`), and `schemars` makes the schema of it.
@@ -42,8 +44,8 @@ use crate::stage::{Stage, StepError};
 pub use choice::{CommandSettings, PluginChoice};
 pub use classifier::{Classifier, Clusters, CurvatureSamples, classifier_systems};
 pub use rectifier::{
-    Answered, EndFate, LabelledMesh, Labels, OpenEnd, OpenEnds, Rectifier, boundary,
-    rectifier_systems,
+    Answered, EndFate, Evidence, EvidenceOnDemand, LabelledMesh, Labels, MakeEvidence, OpenEnd,
+    OpenEnds, Rectifier, boundary, rectifier_systems,
 };
 pub use registry::{MakeSystems, OutsideSystems, PluginEntry, Registry};
 

@@ -19,7 +19,7 @@ pub struct Segmentation {
     pub patches: Vec<PatchReport>,
     /// One a pair of patches that touch, by ids.
     pub boundaries: Vec<Boundary>,
-    /// Curvature at each welded vertex.
+    /// Curvature at each welded vertex; none where it is not told ([`crate::Told`]).
     pub vertices: VertexQuantities,
     /// What rectifying has changed, where boundaries were given; `None` where the mesh was segmented.
     pub changes: Option<Changes>,

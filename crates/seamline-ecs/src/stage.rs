@@ -39,7 +39,7 @@ pub enum Stage {
     Export,
 }
 
-/// The systems of [`Stage::Score`] that compute scores, all of which are left out where none are needed
+/// The systems of [`Stage::Score`] that compute all scores, left out where the rectifier has asked for those it needs
 /// ([`crate::Answered`]).
 #[derive(SystemSet, Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Scoring;

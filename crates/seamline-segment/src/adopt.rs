@@ -15,7 +15,7 @@ pub(crate) fn systems() -> StageSystems {
     fallible(adopt).in_set(Stage::Merge)
 }
 
-/// Where curvature lies on vertices and nothing is classified, faces belong to no sample.
+/// Where nothing is classified faces belong to no sample, until somebody measures facets.
 pub(crate) fn no_samples() -> StageSystems {
     (|mut samples: ColumnMut<FaceSample>| samples.fill(FaceSample(NONE))).in_set(Stage::Curvature)
 }

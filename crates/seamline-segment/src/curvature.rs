@@ -13,7 +13,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::eigen::{PrincipalFrame, free_principal_frame, tangent_principal_frame};
 use crate::tensor::{
-    Bending, BendingColumns, Full, Gathered, TensorForm, TensorPair, vertex_tensors,
+    Bending, BendingColumns, Full, Gathered, TensorForm, TensorPair, vertex_tensor, vertex_tensors,
 };
 
 /// What carries the samples of curvature that are classified.
@@ -103,11 +103,7 @@ pub(crate) fn measure_vertices_for_score(
 
 fn write_down(frames: Vec<PrincipalFrame>, to: &mut [VertexCurvature]) {
     for (to, frame) in to.iter_mut().zip(frames) {
-        *to = VertexCurvature {
-            k: frame.k,
-            d_min: frame.d_min,
-            d_max: frame.d_max,
-        };
+        *to = curvature_of(frame);
     }
 }
 
@@ -122,20 +118,46 @@ pub(crate) fn principal_frames<T: Gathered>(
         .par_iter()
         .enumerate()
         .with_min_len(2048)
-        .map(|(v, pair)| {
-            if sharp[v].0 {
-                free_principal_frame(pick(pair))
-            } else {
-                let normal = vertex_normal(
-                    bending.topology,
-                    bending.positions,
-                    bending.shapes,
-                    v as u32,
-                );
-                tangent_principal_frame(pick(pair), normal)
-            }
-        })
+        .map(|(v, pair)| principal_frame(bending, sharp[v].0, pick(pair), v as u32))
         .collect()
+}
+
+fn principal_frame(
+    bending: &Bending,
+    sharp: bool,
+    tensor: &SymmetricTensor,
+    vertex: u32,
+) -> PrincipalFrame {
+    if sharp {
+        return free_principal_frame(tensor);
+    }
+    let Bending {
+        topology,
+        positions,
+        shapes,
+        ..
+    } = bending;
+    tangent_principal_frame(tensor, vertex_normal(topology, positions, shapes, vertex))
+}
+
+/// Curvature of one vertex, with every edge counted.
+pub(crate) fn vertex_curvature(
+    settings: &CurvatureSettings,
+    bending: &Bending,
+    vertex: u32,
+) -> VertexCurvature {
+    let around = bending.topology.vertex_edges.row(vertex as usize);
+    let sharp = around.iter().any(|&edge| bending.sharp[edge as usize].0);
+    let tensor: Full = vertex_tensor(bending, settings.tensor, settings.ball_radius, vertex);
+    curvature_of(principal_frame(bending, sharp, &tensor.0, vertex))
+}
+
+fn curvature_of(frame: PrincipalFrame) -> VertexCurvature {
+    VertexCurvature {
+        k: frame.k,
+        d_min: frame.d_min,
+        d_max: frame.d_max,
+    }
 }
 
 /// Unit normal of a vertex: the normals of its faces, weighted by their angles at it. Zero where they

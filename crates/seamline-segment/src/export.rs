@@ -8,7 +8,7 @@ use seamline_ecs::results::{Boundary, PatchReport, PatchSummary, Segmentation, V
 use seamline_ecs::rows::{self, Patches};
 use seamline_ecs::{
     Column, ColumnMut, Counts, GivenBoundary, InputMesh, MeshScale, OpenEnd, OpenEnds,
-    PipelineKind, Stage, StageSystems,
+    PipelineKind, Stage, StageSystems, Told,
 };
 use seamline_mesh::{EdgeKind, Findings, Mesh, Topology, examine};
 
@@ -17,6 +17,7 @@ use crate::changes::{changes, mesh_edge};
 use crate::curvature::principal_frames;
 use crate::eigen::free_principal_values;
 use crate::face_patches::{FacePatches, number_patches};
+use crate::facets;
 use crate::refine::{RefinedRows, refine_boundaries};
 use crate::refined::refined_mesh;
 use crate::spatial_order::SpatialOrder;
@@ -25,14 +26,22 @@ use crate::tensor::{
     Bending, BendingColumns, Smooth, TensorForm, face_tensors, over, vertex_tensors,
 };
 
-/// With `refines` boundaries may run through triangles.
-pub(crate) fn systems(refines: bool) -> StageSystems {
-    let export = number.pipe(collect).pipe(make_rows);
-    if refines {
-        (refine_boundaries, export).chain().in_set(Stage::Export)
-    } else {
-        export.in_set(Stage::Export)
+/// With `refines` boundaries may run through triangles; with `measures` facets are measured where nothing has needed
+/// them before.
+pub(crate) fn systems(refines: bool, measures: bool) -> StageSystems {
+    let mut export = number.pipe(collect).pipe(make_rows).into_configs();
+    if measures {
+        export = (facets::systems().run_if(facets_are_missing), export).chain();
     }
+    if refines {
+        export = (refine_boundaries, export).chain();
+    }
+    export.in_set(Stage::Export)
+}
+
+fn facets_are_missing(told: Res<Told>, facet_of_face: Column<FaceSample>) -> bool {
+    let first = facet_of_face.first();
+    told.patch_curvature && first.is_some_and(|facet| facet.0 == NONE)
 }
 
 fn number(
@@ -58,9 +67,14 @@ fn collect(
     surfaces: Column<Surface>,
     looked_for: Res<SurfaceSettings>,
     given: GivenColumns,
+    told: Res<Told>,
 ) -> Segmentation {
     let bending = columns.lend();
-    let curvatures = face_curvatures(&bending, &facet_of_face, &samples);
+    let curvatures = if told.patch_curvature {
+        face_curvatures(&bending, &facet_of_face, &samples)
+    } else {
+        vec![Principal::default(); labels.len()]
+    };
     let rows = LabelledRows {
         bending,
         order: &order,
@@ -75,7 +89,7 @@ fn collect(
         let shapes = rows.bending.shapes;
         patch_surfaces(patches.count, &labels, shapes, &face_surfaces, &surfaces)
     });
-    let mut segmentation = describe(&mesh.0, &rows, patches);
+    let mut segmentation = describe(&mesh.0, &rows, patches, told.vertex_curvature);
     for (patch, surface) in segmentation
         .patches
         .iter_mut()
@@ -143,18 +157,24 @@ pub struct LabelledRows<'a> {
     pub given: Option<Given<'a>>,
 }
 
-/// Everything told of finished patches, by the mesh's own vertices and in its own unit.
-pub fn describe(mesh: &Mesh, rows: &LabelledRows, patches: FacePatches) -> Segmentation {
+/// Everything told of finished patches, by the mesh's own vertices and in its own unit. Curvature at vertices is told
+/// only with `vertex_curvature`.
+pub fn describe(
+    mesh: &Mesh,
+    rows: &LabelledRows,
+    patches: FacePatches,
+    vertex_curvature: bool,
+) -> Segmentation {
     let boundaries = boundaries(rows);
     let summaries = summaries(rows, &patches);
-    let vertices = vertex_quantities(rows);
+    let vertices = vertex_curvature.then(|| vertex_quantities(rows));
     let refined = rows.given.and_then(|given| given.refined);
     Segmentation {
         face_patches: patches.of_face,
         patches: with_neighbours(summaries, &boundaries),
         boundaries,
-        refined: refined.map(|refined| refined_mesh(mesh, rows, refined, &vertices)),
-        vertices,
+        refined: refined.map(|refined| refined_mesh(mesh, rows, refined, vertices.as_ref())),
+        vertices: vertices.unwrap_or_default(),
         changes: rows.given.map(|given| changes(rows, given)),
         findings: findings(mesh, rows.bending.topology, rows.turned),
         stages: Vec::new(),

@@ -73,9 +73,7 @@ impl StepSettings for FacetSettings {
 }
 
 pub(crate) fn systems() -> StageSystems {
-    (measure.pipe(make_rows), filter)
-        .chain()
-        .in_set(Stage::Curvature)
+    (measure.pipe(make_rows), filter).chain()
 }
 
 /// The facets of a mesh.
@@ -103,27 +101,42 @@ pub fn find_facets(bending: &Bending, flat: f64) -> Facets {
     let (of_face, count) = sets.numbered();
 
     let tensors: Vec<Smooth> = face_tensors(bending);
-    let mut sums = vec![(SymmetricTensor::default(), DVec3::ZERO, 0.0); count];
+    let mut sums = vec![FacetSum::default(); count];
     for ((&facet, tensor), shape) in of_face.iter().zip(&tensors).zip(bending.shapes) {
-        let (sum, normal, area) = &mut sums[facet as usize];
-        add_scaled(sum, &tensor.0, 1.0);
-        *normal += shape.normal * shape.area;
-        *area += shape.area;
+        sums[facet as usize].add(tensor, shape);
     }
-    let sample = |(sum, normal, area): &(SymmetricTensor, DVec3, f64)| {
-        let tensor = over(sum, *area);
-        let frame = tangent_principal_frame(&tensor, normal.normalize_or_zero());
+    let samples = sums.par_iter().with_min_len(2048);
+    Facets {
+        of_face,
+        samples: samples.map(FacetSum::sample).collect(),
+    }
+}
+
+/// What the faces of a facet come to together.
+#[derive(Clone, Default)]
+pub(crate) struct FacetSum {
+    tensor: SymmetricTensor,
+    normal: DVec3,
+    area: f64,
+}
+
+impl FacetSum {
+    pub(crate) fn add(&mut self, tensor: &Smooth, shape: &FaceShape) {
+        add_scaled(&mut self.tensor, &tensor.0, 1.0);
+        self.normal += shape.normal * shape.area;
+        self.area += shape.area;
+    }
+
+    pub(crate) fn sample(&self) -> Sample {
+        let tensor = over(&self.tensor, self.area);
+        let frame = tangent_principal_frame(&tensor, self.normal.normalize_or_zero());
         Sample {
-            area: *area,
+            area: self.area,
             curvature: frame.k.feature(),
             tensor,
             d_min: frame.d_min.as_vec3().to_array(),
             vertex: NONE,
         }
-    };
-    Facets {
-        of_face,
-        samples: sums.par_iter().with_min_len(2048).map(sample).collect(),
     }
 }
 
@@ -216,27 +229,29 @@ fn median_filter(pairs: &[[u32; 2]], similar: f64, samples: &mut [Sample]) {
         .with_min_len(512)
         .filter_map(|row| {
             let own = &samples[row[0][0] as usize];
-            let alike =
-                |other: &&Sample| own.area.min(other.area) > similar * own.area.max(other.area);
-            let mut values: Vec<[f64; 2]> = row
-                .iter()
-                .map(|pair| &samples[pair[1] as usize])
-                .filter(alike)
-                .map(|other| other.curvature)
-                .collect();
-            if values.len() < 2 {
-                return None;
-            }
-            values.push(own.curvature);
-            Some((
-                row[0][0],
-                [0, 1].map(|k| median(values.iter().map(|v| v[k]).collect())),
-            ))
+            let others = row.iter().map(|pair| &samples[pair[1] as usize]);
+            let alike = others.filter(|other| are_alike(own, other, similar));
+            let values = alike.map(|other| other.curvature).collect();
+            Some((row[0][0], filtered(own.curvature, values)?))
         })
         .collect();
     for (facet, curvature) in filtered {
         samples[facet as usize].curvature = curvature;
     }
+}
+
+/// Do areas let one facet take part in the median of the other?
+pub(crate) fn are_alike(one: &Sample, other: &Sample, similar: f64) -> bool {
+    one.area.min(other.area) > similar * one.area.max(other.area)
+}
+
+/// The median of a facet's own curvature and those of its neighbours, if they are enough.
+pub(crate) fn filtered(own: [f64; 2], mut neighbours: Vec<[f64; 2]>) -> Option<[f64; 2]> {
+    if neighbours.len() < 2 {
+        return None;
+    }
+    neighbours.push(own);
+    Some([0, 1].map(|k| median(neighbours.iter().map(|v| v[k]).collect())))
 }
 
 /// The middle value; of an even number, the mean of the two in the middle.

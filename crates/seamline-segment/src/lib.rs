@@ -19,6 +19,7 @@ mod grow;
 mod hard_edges;
 mod import;
 mod merge;
+mod on_demand;
 mod orient;
 mod reduction;
 mod refine;
@@ -36,7 +37,7 @@ use std::sync::Arc;
 
 use bevy_ecs::prelude::*;
 use seamline_ecs::settings::{SettingsError, SettingsTable, StepSettings, read};
-use seamline_ecs::{BuiltinSteps, InstallStep, PipelineKind, PipelineSettings};
+use seamline_ecs::{BuiltinSteps, InstallStep, PipelineKind, PipelineSettings, Stage};
 use toml::Table;
 
 pub use adopt::{adopt_edges, adopt_labels};
@@ -83,7 +84,7 @@ pub fn builtin_steps() -> BuiltinSteps {
         install,
         idle: |kind| match kind {
             PipelineKind::Segment => &[HardEdgeSettings::TABLE, RefineSettings::TABLE],
-            PipelineKind::Rectify => &[SurfaceSettings::TABLE, MergeSettings::TABLE],
+            PipelineKind::Rectify => &[MergeSettings::TABLE],
         },
     }
 }
@@ -125,14 +126,20 @@ fn install(in_force: &Table) -> Result<InstallStep, SettingsError> {
                     }
                     segment(schedule, curvature.carrier, enriched);
                 }
-                PipelineKind::Rectify => rectify(schedule, curvature.carrier),
+                PipelineKind::Rectify => {
+                    let evidence = on_demand::evidence(
+                        curvature.clone(),
+                        facets.clone(),
+                        score.clone(),
+                        surfaces.clone(),
+                    );
+                    world.insert_resource(evidence);
+                    rectify(schedule, curvature.carrier);
+                }
             }
-            schedule.add_systems(match curvature.carrier {
-                Carrier::Vertices => score::vertex_systems(),
-                Carrier::Facets => score::facet_systems(),
-            });
             let refines = refine.enabled && kind == PipelineKind::Rectify;
-            schedule.add_systems(export::systems(refines));
+            let measures = kind == PipelineKind::Rectify && curvature.carrier == Carrier::Facets;
+            schedule.add_systems(export::systems(refines, measures));
         },
     ))
 }
@@ -145,17 +152,25 @@ fn segment(schedule: &mut Schedule, carrier: Carrier, enriched: bool) {
     } else {
         schedule.add_systems((sharp::systems(), merge::systems()));
     }
-    schedule.add_systems(match carrier {
-        Carrier::Vertices => (curvature::systems(), grow::vertex_systems()),
-        Carrier::Facets => (facets::systems(), grow::facet_systems()),
-    });
+    match carrier {
+        Carrier::Vertices => schedule.add_systems((
+            curvature::systems(),
+            grow::vertex_systems(),
+            score::vertex_systems(),
+        )),
+        Carrier::Facets => schedule.add_systems((
+            facets::systems().in_set(Stage::Curvature),
+            grow::facet_systems(),
+            score::facet_systems(),
+        )),
+    };
 }
 
-/// From sharp edges to what was given. Where curvature lies on vertices it is measured for the score alone.
+/// From sharp edges to what was given. Curvature is measured for the scores alone.
 fn rectify(schedule: &mut Schedule, carrier: Carrier) {
-    schedule.add_systems((sharp::systems(), adopt::systems()));
+    schedule.add_systems((sharp::systems(), adopt::no_samples(), adopt::systems()));
     schedule.add_systems(match carrier {
-        Carrier::Vertices => adopt::no_samples(),
-        Carrier::Facets => facets::systems(),
+        Carrier::Vertices => score::vertex_systems(),
+        Carrier::Facets => score::measured_facet_systems(),
     });
 }

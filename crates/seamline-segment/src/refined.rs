@@ -23,7 +23,7 @@ pub(crate) fn refined_mesh(
     mesh: &Mesh,
     rows: &LabelledRows,
     refined: &RefinedRows,
-    of_vertices: &VertexQuantities,
+    of_vertices: Option<&VertexQuantities>,
 ) -> RefinedMesh {
     let own = mesh.positions().len();
     let vertex = |v: u32| match rows.order.vertex_of_row.get(v as usize) {
@@ -31,11 +31,14 @@ pub(crate) fn refined_mesh(
         None => v,
     };
     let mut positions = mesh.positions().to_vec();
-    let mut vertices = of_vertices.clone();
+    let mut vertices = of_vertices.cloned();
     for &(edge, share) in &refined.new_vertices {
         let [a, b] = rows.bending.topology.edge_vertices[edge as usize];
         let [a, b] = [a, b].map(|row| vertex(row) as usize);
         positions.push(positions[a].lerp(positions[b], share));
+        let Some(vertices) = &mut vertices else {
+            continue;
+        };
         let between = |values: &mut Vec<f32>| {
             values.push(values[a] + (values[b] - values[a]) * share as f32);
         };
@@ -82,7 +85,7 @@ pub(crate) fn refined_mesh(
         vertices_added: positions.len() - own,
         polygons: PolygonMesh::from_triangles(Format::Memory, positions, &triangles),
         patches,
-        vertices,
+        vertices: vertices.unwrap_or_default(),
     }
 }
 

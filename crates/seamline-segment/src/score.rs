@@ -13,6 +13,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::curvature::measure_vertices_for_score;
 use crate::eigen::tangent_principal_frame;
+use crate::facets;
 use crate::surfaces::settle_scores;
 
 /// The `[score]` table.
@@ -59,6 +60,11 @@ pub(crate) fn vertex_systems() -> StageSystems {
 
 pub(crate) fn facet_systems() -> StageSystems {
     (score_by_facets, settle_scores).chain().in_set(Scoring)
+}
+
+/// Where nothing but the scores needs curvature.
+pub(crate) fn measured_facet_systems() -> StageSystems {
+    (facets::systems(), score_by_facets).chain().in_set(Scoring)
 }
 
 fn score_by_vertices(
@@ -110,10 +116,20 @@ pub fn facet_scores(
 ) {
     score_edges(topology, positions, scores, |_, faces, along| {
         let facets = faces.map(|face| &samples[facet_of_face[face as usize].0 as usize]);
-        let normal = faces.map(|face| shapes[face as usize].normal);
-        let angle = facet_angle_score(along, facets, normal[0] + normal[1]);
-        weighed(angle, facet_curvature_score(facets), curvature_weight)
+        let normals = faces.map(|face| shapes[face as usize].normal);
+        facet_score(along, facets, normals, curvature_weight)
     });
+}
+
+/// The score of an edge from the facets and the normals of its faces.
+pub(crate) fn facet_score(
+    along: DVec3,
+    facets: [&Sample; 2],
+    normals: [DVec3; 2],
+    curvature_weight: f64,
+) -> f64 {
+    let angle = facet_angle_score(along, facets, normals[0] + normals[1]);
+    weighed(angle, facet_curvature_score(facets), curvature_weight)
 }
 
 /// Fills the scores: `score` is asked for edges with two faces, by edge, faces and unit direction; others
@@ -130,10 +146,15 @@ fn score_edges(
         .with_min_len(2048)
         .for_each(|(edge, to)| {
             to.0 = topology.face_pair(edge).map_or(0.0, |faces| {
-                let [a, b] = topology.edge_vertices[edge].map(|v| positions[v as usize].0);
-                score(edge as u32, faces, (b - a).normalize_or_zero())
+                score(edge as u32, faces, along(topology, positions, edge))
             });
         });
+}
+
+/// Unit direction of an edge.
+pub(crate) fn along(topology: &Topology, positions: &[Position], edge: usize) -> DVec3 {
+    let [a, b] = topology.edge_vertices[edge].map(|v| positions[v as usize].0);
+    (b - a).normalize_or_zero()
 }
 
 /// The score of every edge from the curvature at its ends and at the vertices across. 0 at borders and
@@ -146,19 +167,27 @@ pub fn vertex_scores(
     scores: &mut [BoundaryScore],
 ) {
     score_edges(topology, positions, scores, |edge, faces, along| {
-        let ends = topology.edge_vertices[edge as usize].map(|v| &curvatures[v as usize]);
+        let ends = topology.edge_vertices[edge as usize].map(|v| curvatures[v as usize]);
         let across = faces.map(|face| curvatures[topology.opposite_vertex(face, edge) as usize].k);
-        let angle = ends
-            .map(|end| angle_score(along, end, NO_DIRECTION))
-            .iter()
-            .sum::<f64>()
-            / 2.0;
-        weighed(
-            angle,
-            curvature_score(ends.map(|end| end.k), across),
-            curvature_weight,
-        )
+        vertex_score(along, ends, across, curvature_weight)
     });
+}
+
+/// The score of an edge from the curvature at its ends and at the vertices across.
+pub(crate) fn vertex_score(
+    along: DVec3,
+    ends: [VertexCurvature; 2],
+    across: [Principal; 2],
+    curvature_weight: f64,
+) -> f64 {
+    let angles = ends
+        .each_ref()
+        .map(|end| angle_score(along, end, NO_DIRECTION));
+    weighed(
+        angles.iter().sum::<f64>() / 2.0,
+        curvature_score(ends.map(|end| end.k), across),
+        curvature_weight,
+    )
 }
 
 fn weighed(angle: f64, curvature: f64, weight: f64) -> f64 {

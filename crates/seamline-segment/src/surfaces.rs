@@ -9,8 +9,8 @@ use seamline_ecs::results::{PatchSurface, SurfaceShape};
 use seamline_ecs::rows::{self, Surfaces};
 use seamline_ecs::settings::{OutOfRange, Profile, StepSettings};
 use seamline_ecs::{
-    Column, ColumnMut, Counts, InputMesh, Measures, MeshScale, MeshTopology, Settled, Stage,
-    StageSystems,
+    Column, ColumnMut, Counts, InputMesh, LabelledMesh, Measures, MeshScale, MeshTopology, Settled,
+    Stage, StageSystems,
 };
 use seamline_primitives::{Fitted, Found, Kind, find};
 use serde::{Deserialize, Serialize};
@@ -22,7 +22,8 @@ use crate::grow::{Grown, mean_curvatures};
 #[serde(deny_unknown_fields)]
 pub struct SurfaceSettings {
     /// Are surfaces looked for? Where surfaces explain a mesh no classifier is
-    /// asked: so not by default where a classifier other than the default one is chosen.
+    /// asked: so not by default where a classifier other than the default one is chosen. In `rectify`: are labels held
+    /// against them where their boundaries are rough?
     pub enabled: bool,
     /// Share of the area that must lie exactly on surfaces for the patches to follow from them; below it
     /// (noise, scans, natural shapes) curvature leads. The least of the bench is .06, a
@@ -59,6 +60,18 @@ impl StepSettings for SurfaceSettings {
     }
 }
 
+impl SurfaceSettings {
+    /// Do the surfaces found explain the mesh?
+    fn explains(&self, found: &Found) -> bool {
+        let least = if found.noise > 0.0 {
+            self.least_exact_share_of_noisy
+        } else {
+            self.least_exact_share
+        };
+        found.exact_share >= least
+    }
+}
+
 pub(crate) fn systems() -> StageSystems {
     look.pipe(make_rows).in_set(Stage::Surfaces)
 }
@@ -75,14 +88,29 @@ fn look(
     find(&positions, &topology.0, farthest / scale.length)
 }
 
+/// The surface each face lies on exactly, [`NONE`] where there is none; none at all where they explain too little.
+pub(crate) fn exact_surfaces(settings: &SurfaceSettings, mesh: &LabelledMesh<'_>) -> Vec<u32> {
+    let positions: Vec<DVec3> = mesh.positions.iter().map(|p| p.0).collect();
+    let [low, high] = mesh.mesh.bounding_box();
+    let farthest = low.abs().max(high.abs()).max_element();
+    let none = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+    let (first, last) = positions
+        .iter()
+        .fold(none, |(low, high), &x| (low.min(x), high.max(x)));
+    let length = (high - low).max_element() / (last - first).max_element();
+    let found = find(&positions, mesh.topology, farthest / length);
+    if !settings.explains(&found) {
+        return Vec::new();
+    }
+    let is_exact = |surface: &u32| found.surfaces[*surface as usize].is_some_and(|it| it.exact);
+    let of_face = found.of_face.iter();
+    of_face
+        .map(|surface| if is_exact(surface) { *surface } else { NONE })
+        .collect()
+}
+
 fn make_rows(In(found): In<Found>, world: &mut World) {
-    let settings = world.resource::<SurfaceSettings>();
-    let least = if found.noise > 0.0 {
-        settings.least_exact_share_of_noisy
-    } else {
-        settings.least_exact_share
-    };
-    let explains = found.exact_share >= least;
+    let explains = world.resource::<SurfaceSettings>().explains(&found);
     let scale = *world.resource::<MeshScale>();
     rows::resize::<Surfaces>(world, found.surfaces.len());
     for (row, fitted) in rows::column_mut::<Surface>(world)

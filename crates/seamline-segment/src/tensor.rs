@@ -191,18 +191,58 @@ impl Gathered for TensorPair {
     }
 }
 
-/// Integrated tensor `F_t` of every face: half of each of its edges, not yet over the area.
+/// Integrated tensor `F_t` of a face: half of each of its edges, not yet over the area.
+pub(crate) fn face_tensor<T: Gathered>(bending: &Bending, face: u32) -> T {
+    let mut sum = T::default();
+    for &edge in &bending.topology.face_edges[face as usize] {
+        sum.add_edge(bending, edge, 0.5);
+    }
+    sum
+}
+
+/// [`face_tensor`] of every face.
 pub fn face_tensors<T: Gathered>(bending: &Bending) -> Vec<T> {
-    let faces = bending.topology.face_edges.par_iter().with_min_len(4096);
+    let faces = (0..bending.shapes.len() as u32).into_par_iter();
     faces
-        .map(|edges| {
-            let mut sum = T::default();
-            for &edge in edges {
-                sum.add_edge(bending, edge, 0.5);
-            }
-            sum
-        })
+        .with_min_len(4096)
+        .map(|face| face_tensor(bending, face))
         .collect()
+}
+
+/// Curvature tensor of one vertex, by `form`. A vertex without area round it gets zero.
+pub(crate) fn vertex_tensor<T: Gathered>(
+    bending: &Bending,
+    form: TensorForm,
+    ball_radius: f64,
+    vertex: u32,
+) -> T {
+    match form {
+        TensorForm::Ring => ring(bending, vertex, |face| face_tensor(bending, face)),
+        TensorForm::Spokes => spokes::<T>(bending, vertex).over(area_round(bending, vertex)),
+        TensorForm::Cell => spokes::<T>(bending, vertex).over(area_round(bending, vertex) / 1.5),
+        TensorForm::Ball => crate::ball::ball_tensor(bending, vertex, ball_radius),
+    }
+}
+
+fn area_round(bending: &Bending, vertex: u32) -> f64 {
+    let faces = bending.topology.vertex_faces.row(vertex as usize).iter();
+    faces.map(|&face| bending.shapes[face as usize].area).sum()
+}
+
+fn spokes<T: Gathered>(bending: &Bending, vertex: u32) -> T {
+    let mut sum = T::default();
+    for &edge in bending.topology.vertex_edges.row(vertex as usize) {
+        sum.add_edge(bending, edge, 1.0);
+    }
+    sum
+}
+
+fn ring<T: Gathered>(bending: &Bending, vertex: u32, tensor_of: impl Fn(u32) -> T) -> T {
+    let mut sum = T::default();
+    for &face in bending.topology.vertex_faces.row(vertex as usize) {
+        sum.add(&tensor_of(face));
+    }
+    sum.over(area_round(bending, vertex))
 }
 
 /// Curvature tensor of every vertex, by `form`; `ball_radius` serves [`TensorForm::Ball`] alone. A vertex
@@ -214,48 +254,16 @@ pub fn vertex_tensors<T: Gathered>(
     form: TensorForm,
     ball_radius: f64,
 ) -> Vec<T> {
-    let face_tensors: Vec<T> = if form == TensorForm::Ring {
-        face_tensors(bending)
-    } else {
-        Vec::new()
-    };
-    let vertices = (0..bending.positions.len()).into_par_iter();
-    let area = |v: usize| -> f64 {
-        let faces = bending.topology.vertex_faces.row(v);
-        faces
-            .iter()
-            .map(|&face| bending.shapes[face as usize].area)
-            .sum()
-    };
-    let spokes = |v: usize| {
-        let mut sum = T::default();
-        for &edge in bending.topology.vertex_edges.row(v) {
-            sum.add_edge(bending, edge, 1.0);
-        }
-        sum
-    };
-    match form {
-        TensorForm::Spokes => vertices
+    let vertices = (0..bending.positions.len() as u32).into_par_iter();
+    if form == TensorForm::Ring {
+        let face_tensors: Vec<T> = face_tensors(bending);
+        return vertices
             .with_min_len(2048)
-            .map(|v| spokes(v).over(area(v)))
-            .collect(),
-        TensorForm::Cell => vertices
-            .with_min_len(2048)
-            .map(|v| spokes(v).over(area(v) / 1.5))
-            .collect(),
-        TensorForm::Ring => vertices
-            .with_min_len(2048)
-            .map(|v| {
-                let mut sum = T::default();
-                for &face in bending.topology.vertex_faces.row(v) {
-                    sum.add(&face_tensors[face as usize]);
-                }
-                sum.over(area(v))
-            })
-            .collect(),
-        TensorForm::Ball => vertices
-            .with_min_len(64)
-            .map(|v| crate::ball::ball_tensor(bending, v as u32, ball_radius))
-            .collect(),
+            .map(|v| ring(bending, v, |face| face_tensors[face as usize]))
+            .collect();
     }
+    vertices
+        .with_min_len(if form == TensorForm::Ball { 64 } else { 2048 })
+        .map(|v| vertex_tensor(bending, form, ball_radius, v))
+        .collect()
 }

@@ -11,8 +11,8 @@ use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
 use schemars::JsonSchema;
-use seamline_ecs::Segmentation;
 use seamline_ecs::settings::SettingsError;
+use seamline_ecs::{Segmentation, Told};
 use seamline_mesh::Mesh;
 use seamline_mesh::write::{
     CurveGroup, VertexQuantities, write_labels, write_ply, write_polylines,
@@ -80,6 +80,14 @@ impl WriteSet {
     /// Is this file among them?
     pub fn has(self, file: OutputFile) -> bool {
         self.0[file as usize]
+    }
+
+    /// What these files tell of finished patches.
+    pub fn told(self) -> Told {
+        Told {
+            patch_curvature: self.has(OutputFile::Report),
+            vertex_curvature: self.has(OutputFile::Patches),
+        }
     }
 }
 

@@ -55,6 +55,8 @@ impl Setup {
             && given("curvature", "carrier").and_then(Value::as_str) == Some("vertices");
         let looks_itself = given("hard-edges", "strong_deg").and_then(Value::as_float);
         let rectifies = pipeline.kind() == PipelineKind::Rectify;
+        let told = config.write.told();
+        let pipeline = Arc::new(Pipeline::clone(&pipeline).telling(told));
         Self {
             needs_markings: rectifies && looks_itself.is_none_or(|strong| strong == 0.0),
             enriched,

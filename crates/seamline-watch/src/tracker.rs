@@ -217,7 +217,7 @@ impl StabilityTracker {
     pub fn holds(&self, path: &Path, stamp: Stamp) -> bool {
         self.files
             .get(path)
-            .is_some_and(|file| file.stamp == stamp && file.phase == Phase::Given)
+            .is_some_and(|file| file.stamp == stamp && file.phase != Phase::Settling)
     }
 
     /// Is there a file at this path?

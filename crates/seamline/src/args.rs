@@ -60,7 +60,7 @@ pub struct RectifyArgs {
     pub what: WhatArgs,
     /// What tells the faces apart in a PLY (the name of a property, or colour) or an OBJ (group, object,
     /// material or smoothing) [default: the first that says more than one thing]
-    #[arg(long, value_name = "NAME", requires = "labels")]
+    #[arg(long, value_name = "NAME")]
     pub labels_by: Option<String>,
     /// Let boundaries run through triangles where they are smoother for it; triangles are cut for them
     #[arg(long)]

@@ -17,8 +17,9 @@ use crate::settings::pipeline_of_args;
 /// Rectifies what is given for one mesh.
 pub fn run(args: &RectifyArgs) -> Result<Outcome> {
     refuse_without_effect(args)?;
-    let pipeline = Arc::new(pipeline_of_args(&args.pipeline, &said(args)?)?);
-    let results = Results::new(&args.results, args.said, Arc::clone(&pipeline))?;
+    let pipeline = pipeline_of_args(&args.pipeline, &said(args)?)?;
+    let results = Results::new(&args.results, args.said, pipeline)?;
+    let pipeline = results.pipeline();
     if args.said.verbose {
         tell_as_it_comes();
     }

@@ -54,7 +54,7 @@ impl<'a> Results<'a> {
     /// # Errors
     ///
     /// Wrong use: files that there are none of, an output folder that is none.
-    pub fn new(args: &'a ResultArgs, said: SaidArgs, pipeline: Arc<Pipeline>) -> Result<Self> {
+    pub fn new(args: &'a ResultArgs, said: SaidArgs, pipeline: Pipeline) -> Result<Self> {
         let write = args
             .write
             .as_deref()
@@ -72,12 +72,19 @@ impl<'a> Results<'a> {
                 .num_threads(pipeline.threads())
                 .build_global()?;
         }
+        let mut told = write.told();
+        told.patch_curvature |= args.json;
         Ok(Self {
             args,
             said,
             write,
-            pipeline,
+            pipeline: Arc::new(pipeline.telling(told)),
         })
+    }
+
+    /// The pipeline, telling what these results have in them and no more.
+    pub fn pipeline(&self) -> Arc<Pipeline> {
+        Arc::clone(&self.pipeline)
     }
 
     /// Writes the results of one mesh and gives their folder.

@@ -19,9 +19,10 @@ use crate::settings::pipeline_of_args;
 /// Cuts every mesh named; one that fails is told and the others go on.
 pub fn run(args: &SegmentArgs) -> Result<Outcome> {
     let kind = ("pipeline.kind", "segment".to_owned());
-    let pipeline = Arc::new(pipeline_of_args(&args.pipeline, &[kind])?);
+    let pipeline = pipeline_of_args(&args.pipeline, &[kind])?;
     refuse_same_names(&args.meshes)?;
-    let results = Results::new(&args.results, args.said, Arc::clone(&pipeline))?;
+    let results = Results::new(&args.results, args.said, pipeline)?;
+    let pipeline = results.pipeline();
     let weld_share = weld_share(pipeline.settings_in_force());
 
     if args.said.verbose {

@@ -1,8 +1,8 @@
 //! Contours while they are being closed: which edges are on one, and where one ends.
 
 use glam::DVec3;
-use seamline_ecs::components::{BoundaryScore, ContourState, Position};
-use seamline_ecs::{EndFate, OpenEnd};
+use seamline_ecs::components::{ContourState, Position};
+use seamline_ecs::{EndFate, Evidence, OpenEnd};
 use seamline_mesh::{EdgeKind, Topology};
 
 /// What contours run over, and what a step costs there.
@@ -12,8 +12,8 @@ pub struct Ground<'a> {
     pub topology: &'a Topology,
     /// One a vertex.
     pub positions: &'a [Position],
-    /// One an edge.
-    pub scores: &'a [BoundaryScore],
+    /// Asked for as steps are weighed.
+    pub evidence: &'a dyn Evidence,
     /// Weight of the turn against the score: `omega_theta` of the paper.
     pub turn_weight: f64,
     /// The longest piece that is added to close one open end.
@@ -24,7 +24,7 @@ impl Ground<'_> {
     /// What going on from `arriving` by `edge` costs, at the vertex between the two: `P = S + turn_weight * turn`
     /// of the paper, in degrees.
     pub(crate) fn step(&self, arriving: u32, at: u32, edge: u32) -> f64 {
-        self.scores[edge as usize].0 + self.turn_weight * self.turn_deg(arriving, at, edge)
+        self.evidence.score(edge) + self.turn_weight * self.turn_deg(arriving, at, edge)
     }
 
     /// The turn from one edge into another at the vertex between them; straight on is 0.

@@ -4,6 +4,7 @@
 mod bridge;
 mod contours;
 mod mark;
+mod outvote;
 mod patches;
 mod straighten;
 mod stretches;
@@ -11,17 +12,17 @@ mod strokes;
 mod track;
 
 use schemars::JsonSchema;
-use seamline_ecs::components::{BoundaryScore, ContourState, FaceLabel};
+use seamline_ecs::components::{ContourState, FaceLabel, SharpEdge};
 use seamline_ecs::settings::{OutOfRange, Profile, StepSettings};
-use seamline_ecs::{EndFate, GivenAs, LabelledMesh, Labels, Rectifier, StepError, boundary};
-use seamline_mesh::Topology;
+use seamline_ecs::{
+    EndFate, Evidence, GivenAs, LabelledMesh, Labels, Rectifier, StepError, boundary,
+};
 use serde::{Deserialize, Serialize};
-
-use contours::Contours;
 
 pub use bridge::bridge;
 pub use contours::Ground;
-pub use mark::{mark, mark_given};
+pub use mark::{mark, mark_given, runs};
+pub use outvote::{Outvoted, outvote};
 pub use patches::patches;
 pub use straighten::straighten;
 pub use stretches::stretches;
@@ -136,78 +137,36 @@ impl Rectifier for ContourTrackingSettings {
         "keeps correct boundary edges and tracks contours from them until they close (the paper's)";
 
     fn rectify(&self, mesh: &LabelledMesh<'_>) -> Result<Labels, StepError> {
-        let ground = self.ground(mesh);
-        let mut of_face = mesh.labels.to_vec();
-        let (contours, doubted) = self.marked(mesh, &ground, &mut of_face);
-        Ok(self.closed(mesh.topology, ground, of_face, contours, doubted))
+        Ok(self.rectified(mesh, &mesh.scores))
     }
 
-    /// Where all that is given is believed by its form, runs straight and ends nowhere, scores could change nothing.
-    fn without_scores(&self, mesh: &LabelledMesh<'_>) -> Option<Labels> {
-        let worst = vec![BoundaryScore(90.0); mesh.angles.len()];
-        let mesh = &LabelledMesh {
-            scores: &worst,
-            ..*mesh
-        };
-        let ground = self.ground(mesh);
-        let mut states = vec![ContourState::Off; worst.len()];
-        match mesh.given_as {
-            GivenAs::Nothing => return None,
-            GivenAs::Edges | GivenAs::HardEdges => {
-                let doubt = self.doubt_given && mesh.given_as == GivenAs::Edges;
-                if !mark_given(mesh, &ground, doubt, self, &mut states).is_empty() {
-                    return None;
-                }
-            }
-            GivenAs::Labels => {
-                mark(
-                    mesh.topology,
-                    &worst,
-                    mesh.sharp,
-                    mesh.labels,
-                    self,
-                    &mut states,
-                );
-                for (edge, straight) in self.unproved(&ground, mesh.labels, &states) {
-                    if !straight {
-                        return None;
-                    }
-                    states[edge as usize] = ContourState::Kept;
-                }
-            }
-        }
-        if !Contours::of(ground, &mut states).open_ends().is_empty() {
-            return None;
-        }
-        Some(self.closed(
-            mesh.topology,
-            ground,
-            mesh.labels.to_vec(),
-            states,
-            Vec::new(),
-        ))
+    /// Scores are asked for where what was given is doubted or turns, along gaps, and beside what is labelled anew.
+    fn rectify_asking(&self, mesh: &LabelledMesh<'_>, evidence: &dyn Evidence) -> Option<Labels> {
+        Some(self.rectified(mesh, evidence))
     }
 }
 
 impl ContourTrackingSettings {
-    fn ground<'a>(&self, mesh: &LabelledMesh<'a>) -> Ground<'a> {
-        Ground {
+    fn rectified(&self, mesh: &LabelledMesh<'_>, evidence: &dyn Evidence) -> Labels {
+        let ground = Ground {
             topology: mesh.topology,
             positions: mesh.positions,
-            scores: mesh.scores,
+            evidence,
             turn_weight: self.turn_weight,
             max_gap: match (self.open_ends, self.max_gap_share) {
                 (ClosingRule::Leave, _) => 0.0,
                 (_, 0.0) => f64::INFINITY,
                 (_, share) => share,
             },
-        }
+        };
+        let mut of_face = mesh.labels.to_vec();
+        let (contours, doubted) = self.marked(mesh, &ground, &mut of_face);
+        self.closed(ground, of_face, contours, doubted)
     }
 
     /// The patches, once open ends are closed.
     fn closed(
         &self,
-        topology: &Topology,
         ground: Ground<'_>,
         mut of_face: Vec<FaceLabel>,
         mut contours: Vec<ContourState>,
@@ -219,7 +178,7 @@ impl ContourTrackingSettings {
             ClosingRule::Track | ClosingRule::Leave => track(ground, states),
         };
         let keep = self.dangling == DanglingRule::Keep;
-        let patch_count = patches(topology, keep, states, &mut of_face);
+        let patch_count = patches(ground.topology, keep, states, &mut of_face);
         for edge in doubted.into_iter().map(|edge| edge as usize) {
             if states[edge] == ContourState::Off {
                 states[edge] = match self.dangling {
@@ -250,17 +209,6 @@ impl ContourTrackingSettings {
         }
     }
 
-    /// Boundary edges that are not correct, each with whether its stretch is straight.
-    fn unproved(
-        &self,
-        ground: &Ground<'_>,
-        labels: &[FaceLabel],
-        states: &[ContourState],
-    ) -> Vec<(u32, bool)> {
-        let boundary = boundary(ground.topology, labels);
-        stretches(ground, &boundary, self.rough_above_deg, states)
-    }
-
     /// The contours to begin with. Labels that were given are made straight where their boundary is rough, and what is
     /// straight of it is kept. With them come the edges given that are doubted.
     fn marked(
@@ -269,33 +217,89 @@ impl ContourTrackingSettings {
         ground: &Ground<'_>,
         labels: &mut Vec<FaceLabel>,
     ) -> (Vec<ContourState>, Vec<u32>) {
-        let (topology, scores) = (mesh.topology, mesh.scores);
-        let mut states = vec![ContourState::Off; scores.len()];
+        let mut states = vec![ContourState::Off; mesh.angles.len()];
         let mut doubted = Vec::new();
         match mesh.given_as {
             GivenAs::Edges | GivenAs::HardEdges => {
                 let doubt = self.doubt_given && mesh.given_as == GivenAs::Edges;
                 doubted = mark_given(mesh, ground, doubt, self, &mut states);
             }
-            GivenAs::Nothing => mark(topology, scores, mesh.sharp, labels, self, &mut states),
+            GivenAs::Nothing => mark(ground, mesh.sharp, labels, self, &mut states),
             GivenAs::Labels => {
-                mark(topology, scores, mesh.sharp, labels, self, &mut states);
-                let rough: Vec<u32> = self
-                    .unproved(ground, labels, &states)
-                    .into_iter()
-                    .filter_map(|(edge, straight)| (!straight).then_some(edge))
-                    .collect();
+                let rough = self.mark_labels(ground, mesh.sharp, labels, &mut states);
                 if !rough.is_empty() {
-                    *labels = straighten(mesh, &rough, self.vote_weight);
-                    mark(topology, scores, mesh.sharp, labels, self, &mut states);
-                }
-                for (edge, straight) in self.unproved(ground, labels, &states) {
-                    if straight {
-                        states[edge as usize] = ContourState::Kept;
-                    }
+                    let proved;
+                    (*labels, proved) = straighten(mesh, ground.evidence, &rough, self.vote_weight);
+                    let mut sharp = mesh.sharp.to_vec();
+                    proved
+                        .iter()
+                        .for_each(|&edge| sharp[edge as usize].0 = true);
+                    self.mark_labels(ground, &sharp, labels, &mut states);
                 }
             }
         }
         (states, doubted)
+    }
+
+    /// Marks the boundary of labels that were given, keeps what is straight of it, and gives the edges that are rough.
+    ///
+    /// What is straight by its form stays whatever its scores: they are asked for in other [`runs`] alone.
+    fn mark_labels(
+        &self,
+        ground: &Ground<'_>,
+        sharp: &[SharpEdge],
+        labels: &[FaceLabel],
+        states: &mut [ContourState],
+    ) -> Vec<u32> {
+        let boundary = boundary(ground.topology, labels);
+        let mut rough = Vec::new();
+        let mut turns = vec![false; states.len()];
+        for by_score in [false, true] {
+            let evidence = WhereItTurns {
+                evidence: ground.evidence,
+                turns: &turns,
+            };
+            let seen = Ground {
+                evidence: &evidence,
+                ..*ground
+            };
+            mark(&seen, sharp, labels, self, states);
+            rough.clear();
+            for (edge, straight) in stretches(&seen, &boundary, self.rough_above_deg, states) {
+                if straight {
+                    states[edge as usize] = ContourState::Kept;
+                } else {
+                    rough.push(edge);
+                }
+            }
+            if by_score || rough.is_empty() {
+                break;
+            }
+            let (run_of, run_count) = runs(ground.topology, &boundary);
+            let mut run_turns = vec![false; run_count];
+            for (edge, &run) in boundary.iter().zip(&run_of) {
+                run_turns[run as usize] |= rough.binary_search(edge).is_ok();
+            }
+            for (&edge, &run) in boundary.iter().zip(&run_of) {
+                turns[edge as usize] = run_turns[run as usize];
+            }
+        }
+        rough
+    }
+}
+
+/// The scores of edges in runs that turn; all others are as bad as can be.
+struct WhereItTurns<'a> {
+    evidence: &'a dyn Evidence,
+    turns: &'a [bool],
+}
+
+impl Evidence for WhereItTurns<'_> {
+    fn score(&self, edge: u32) -> f64 {
+        if self.turns[edge as usize] {
+            self.evidence.score(edge)
+        } else {
+            90.0
+        }
     }
 }

@@ -1,6 +1,6 @@
 //! Correct boundary edges (paper 5.3.1).
 
-use seamline_ecs::components::{BoundaryScore, ContourState, FaceLabel, SharpEdge};
+use seamline_ecs::components::{ContourState, FaceLabel, SharpEdge};
 use seamline_ecs::{LabelledMesh, boundary};
 use seamline_mesh::{Sets, Topology};
 
@@ -14,24 +14,22 @@ const TURNS_DEG: f64 = 15.0;
 /// Writes the state of every edge: correct, kept or off the contours. Only edges between two labels are
 /// looked at.
 pub fn mark(
-    topology: &Topology,
-    scores: &[BoundaryScore],
+    ground: &Ground<'_>,
     sharp: &[SharpEdge],
     labels: &[FaceLabel],
     settings: &ContourTrackingSettings,
     states: &mut [ContourState],
 ) {
-    let boundary = boundary(topology, labels);
+    let boundary = boundary(ground.topology, labels);
     states.fill(ContourState::Off);
     for &edge in &boundary {
-        let edge = edge as usize;
-        let by_score = scores[edge].0 < settings.correct_below_deg;
-        if by_score || (settings.sharp_is_correct && sharp[edge].0) {
-            states[edge] = ContourState::Correct;
+        let by_sharpness = settings.sharp_is_correct && sharp[edge as usize].0;
+        if by_sharpness || ground.evidence.score(edge) < settings.correct_below_deg {
+            states[edge as usize] = ContourState::Correct;
         }
     }
     if settings.keep_unmarked {
-        keep_unmarked(topology, &boundary, states);
+        keep_unmarked(ground.topology, &boundary, states);
     }
 }
 
@@ -48,20 +46,23 @@ pub fn mark_given(
     states.fill(ContourState::Off);
     let given = mesh.given_edges;
     let strokes = strokes(ground, given);
-    let speaks_for_itself = |edge: u32, stroke_edges: u32| {
+    let has_form = |edge: u32, stroke_edges: u32| {
         let faces = mesh.topology.face_pair(edge as usize);
         // Faces are labelled by what the edges given part, so an edge between two labels is part of a closed contour.
         let closes = faces.is_some_and(|[a, b]| mesh.labels[a as usize] != mesh.labels[b as usize]);
         let edge = edge as usize;
         (closes && stroke_edges > 1)
-            || mesh.scores[edge].0 < settings.correct_below_deg
             || mesh.sharp[edge].0
             || mesh.angles[edge].0.abs() > TURNS_DEG.to_radians()
     };
     let (run_of, run_count) = runs(mesh.topology, given);
     let mut believed = vec![!doubt; run_count];
     for ((&edge, &run), &stroke_edges) in given.iter().zip(&run_of).zip(&strokes) {
-        believed[run as usize] |= speaks_for_itself(edge, stroke_edges);
+        believed[run as usize] |= has_form(edge, stroke_edges);
+    }
+    for (&edge, &run) in given.iter().zip(&run_of) {
+        let believed = &mut believed[run as usize];
+        *believed = *believed || ground.evidence.score(edge) < settings.correct_below_deg;
     }
     let mut doubted = Vec::new();
     for (&edge, &run) in given.iter().zip(&run_of) {
@@ -89,7 +90,7 @@ fn keep_unmarked(topology: &Topology, boundary: &[u32], states: &mut [ContourSta
 }
 
 /// The run of each edge, and how many there are: edges that meet where no third one does are of one run.
-fn runs(topology: &Topology, boundary: &[u32]) -> (Vec<u32>, usize) {
+pub fn runs(topology: &Topology, boundary: &[u32]) -> (Vec<u32>, usize) {
     let vertex_count = topology.vertex_edges.row_count();
     let mut degree = vec![0u32; vertex_count];
     let mut one_of = vec![u32::MAX; vertex_count];

@@ -7,9 +7,11 @@
 use std::collections::VecDeque;
 
 use rayon::prelude::*;
-use seamline_ecs::LabelledMesh;
-use seamline_ecs::components::FaceLabel;
+use seamline_ecs::components::{FaceLabel, NONE};
+use seamline_ecs::{Evidence, LabelledMesh};
 use seamline_mesh::Sets;
+
+use crate::outvote::{Outvoted, outvote};
 
 /// Triangles that turn by less than this are one piece, as with facets.
 const FLAT_DEG: f64 = 0.1;
@@ -29,9 +31,28 @@ const BETTER: f64 = 1.0 + 1e-9;
 /// the edge (a sharp one costs nothing), and `vote_weight` times its perimeter times the share of its area that
 /// bore another label.
 ///
-/// Each change lowers the sum of all costs, so it ends.
-pub fn straighten(mesh: &LabelledMesh<'_>, rough: &[u32], vote_weight: f64) -> Vec<FaceLabel> {
-    let pieces = Pieces::of(mesh);
+/// Each change lowers the sum of all costs, so it ends. Pieces whose label their [surface settles](outvote) do not change
+/// any more; the edges between those are given as proved.
+pub fn straighten(
+    mesh: &LabelledMesh<'_>,
+    evidence: &dyn Evidence,
+    rough: &[u32],
+    vote_weight: f64,
+) -> (Vec<FaceLabel>, Vec<u32>) {
+    let Outvoted {
+        labels,
+        settled_by,
+        proved,
+    } = outvote(mesh, &evidence.surfaces(), rough);
+    let mesh = &LabelledMesh {
+        labels: &labels,
+        ..*mesh
+    };
+    let mut pieces = Pieces::of(mesh, &settled_by);
+    let cost_of = |edge: u32| match mesh.sharp[edge as usize].0 {
+        true => 0.0,
+        false => mesh.edge_length(edge as usize) * evidence.score(edge) / 90.0,
+    };
     let mut active: Vec<u32> = rough
         .iter()
         .filter_map(|&edge| mesh.topology.face_pair(edge as usize))
@@ -39,13 +60,17 @@ pub fn straighten(mesh: &LabelledMesh<'_>, rough: &[u32], vote_weight: f64) -> V
         .collect();
     active.sort_unstable();
     active.dedup();
+    active.retain(|&piece| !pieces.settled[piece as usize]);
+    active
+        .iter()
+        .for_each(|&piece| pieces.weigh_sides(piece, cost_of));
     let mut labels = share_out(&pieces, &active, vote_weight);
-    settle(&pieces, &active, vote_weight, &mut labels);
+    settle(&mut pieces, cost_of, &active, vote_weight, &mut labels);
     while move_groups(&pieces, &active, vote_weight, &mut labels) {
-        settle(&pieces, &active, vote_weight, &mut labels);
+        settle(&mut pieces, cost_of, &active, vote_weight, &mut labels);
     }
     let label = |&piece: &u32| FaceLabel(labels[piece as usize]);
-    pieces.of_face.iter().map(label).collect()
+    (pieces.of_face.iter().map(label).collect(), proved)
 }
 
 /// The label each piece leans to: the active ones lean as they vote themselves and as those beside them lean, all at
@@ -88,13 +113,20 @@ fn share_out(pieces: &Pieces, active: &[u32], vote_weight: f64) -> Vec<u32> {
 }
 
 /// Gives active pieces, and those beside pieces that have changed, the label of least cost until none changes.
-fn settle(pieces: &Pieces, active: &[u32], vote_weight: f64, labels: &mut [u32]) {
+fn settle(
+    pieces: &mut Pieces,
+    cost_of: impl Fn(u32) -> f64 + Copy,
+    active: &[u32],
+    vote_weight: f64,
+    labels: &mut [u32],
+) {
     let mut waits = vec![false; pieces.count()];
     active
         .iter()
         .for_each(|&piece| waits[piece as usize] = true);
     let mut queue: VecDeque<u32> = active.iter().copied().collect();
     while let Some(piece) = queue.pop_front() {
+        pieces.weigh_sides(piece, cost_of);
         let piece = piece as usize;
         waits[piece] = false;
         let weight = vote_weight * pieces.perimeters[piece];
@@ -112,7 +144,8 @@ fn settle(pieces: &Pieces, active: &[u32], vote_weight: f64, labels: &mut [u32])
         }
         labels[piece] = best;
         for &(other, _) in pieces.sides(piece) {
-            if !std::mem::replace(&mut waits[other as usize], true) {
+            let other_waits = &mut waits[other as usize];
+            if !pieces.settled[other as usize] && !std::mem::replace(other_waits, true) {
                 queue.push_back(other);
             }
         }
@@ -195,20 +228,28 @@ fn most(sums: &[(u32, f64)], own: Option<u32>) -> u32 {
 /// Flat pieces of a labelled mesh. Where labels part one in earnest, each of its triangles is a piece.
 struct Pieces {
     of_face: Vec<u32>,
+    /// By piece: is its label settled by the surface it is?
+    settled: Vec<bool>,
     perimeters: Vec<f64>,
     /// By piece: where its votes and its sides begin.
     starts: Vec<[usize; 2]>,
     /// A label, and the share of the piece that bears it; half as much again as it could be for a label that is nowhere
     /// else.
     votes: Vec<(u32, f64)>,
-    /// The piece beyond, and what a boundary there would cost.
+    /// The piece beyond, and what a boundary there would cost; not a number before it is weighed.
     sides: Vec<(u32, f64)>,
+    /// The edge of each side.
+    side_edges: Vec<u32>,
 }
 
 impl Pieces {
-    fn of(mesh: &LabelledMesh<'_>) -> Self {
-        let of_face = pieces(mesh);
+    fn of(mesh: &LabelledMesh<'_>, settled_by: &[u32]) -> Self {
+        let of_face = pieces(mesh, settled_by);
         let count = of_face.iter().max().map_or(0, |&last| last as usize + 1);
+        let mut settled = vec![false; count];
+        for (&piece, &surface) in of_face.iter().zip(settled_by) {
+            settled[piece as usize] |= surface != NONE;
+        }
         let mut votes = votes(mesh, &of_face);
         let mut areas = vec![0.0; count];
         votes
@@ -224,21 +265,15 @@ impl Pieces {
             *area = share(whole) * (1.0 + share(of_label)) / 2.0;
         }
         let mut perimeters = vec![0.0; count];
-        let mut sides: Vec<(u32, u32, f64)> = Vec::new();
-        for edge in 0..mesh.scores.len() {
+        let mut sides: Vec<(u32, u32, u32)> = Vec::new();
+        for edge in 0..mesh.angles.len() {
             let Some(faces) = mesh.topology.face_pair(edge) else {
                 continue;
             };
             let [p, q] = faces.map(|face| of_face[face as usize]);
             if p != q {
                 let length = mesh.edge_length(edge);
-                let score = if mesh.sharp[edge].0 {
-                    0.0
-                } else {
-                    mesh.scores[edge].0
-                };
-                let cost = length * score / 90.0;
-                sides.extend([(p, q, cost), (q, p, cost)]);
+                sides.extend([(p, q, edge as u32), (q, p, edge as u32)]);
                 perimeters[p as usize] += length;
                 perimeters[q as usize] += length;
             }
@@ -258,6 +293,7 @@ impl Pieces {
         }
         Self {
             of_face,
+            settled,
             perimeters,
             starts,
             votes: votes
@@ -265,9 +301,23 @@ impl Pieces {
                 .map(|(_, label, share)| (label, share))
                 .collect(),
             sides: sides
-                .into_iter()
-                .map(|(_, other, cost)| (other, cost))
+                .iter()
+                .map(|&(_, other, _)| (other, f64::NAN))
                 .collect(),
+            side_edges: sides.into_iter().map(|(.., edge)| edge).collect(),
+        }
+    }
+
+    /// Has the costs of a piece's sides known.
+    fn weigh_sides(&mut self, piece: u32, cost_of: impl Fn(u32) -> f64) {
+        let range = self.starts[piece as usize][1]..self.starts[piece as usize + 1][1];
+        for ((_, cost), &edge) in self.sides[range.clone()]
+            .iter_mut()
+            .zip(&self.side_edges[range])
+        {
+            if cost.is_nan() {
+                *cost = cost_of(edge);
+            }
         }
     }
 
@@ -284,14 +334,17 @@ impl Pieces {
     }
 }
 
-fn pieces(mesh: &LabelledMesh<'_>) -> Vec<u32> {
+/// Faces of one surface that has settled their label are one piece, whatever the angles between them.
+fn pieces(mesh: &LabelledMesh<'_>, settled_by: &[u32]) -> Vec<u32> {
     let flat = FLAT_DEG.to_radians();
     let mut sets = Sets::new(mesh.labels.len());
     for (edge, angle) in mesh.angles.iter().enumerate() {
-        if !mesh.sharp[edge].0
-            && angle.0.abs() < flat
-            && let Some([a, b]) = mesh.topology.face_pair(edge)
-        {
+        let Some([a, b]) = mesh.topology.face_pair(edge) else {
+            continue;
+        };
+        let [on_a, on_b] = [a, b].map(|face| settled_by[face as usize]);
+        let is_flat = !mesh.sharp[edge].0 && angle.0.abs() < flat;
+        if on_a == on_b && (on_a != NONE || is_flat) {
             sets.unite(a, b);
         }
     }
@@ -300,10 +353,8 @@ fn pieces(mesh: &LabelledMesh<'_>) -> Vec<u32> {
     of_face.iter().for_each(|&piece| faces[piece as usize] += 1);
     let mut parted = vec![false; count];
     for votes in votes(mesh, &of_face).chunk_by(|a, b| a.0 == b.0) {
-        let whole: f64 = votes.iter().map(|vote| vote.2).sum();
-        let most = votes.iter().map(|vote| vote.2).fold(0.0, f64::max);
         let piece = votes[0].0 as usize;
-        parted[piece] = faces[piece] >= MANY && whole - most > MINORITY_SHARE * whole;
+        parted[piece] = is_shared(faces[piece], votes.iter().map(|vote| vote.2));
     }
     let mut next = count as u32;
     for piece in &mut of_face {
@@ -315,8 +366,15 @@ fn pieces(mesh: &LabelledMesh<'_>) -> Vec<u32> {
     of_face
 }
 
+/// Do labels of these areas share so many faces by somebody's will?
+pub(crate) fn is_shared(faces: u32, areas: impl Iterator<Item = f64> + Clone) -> bool {
+    let whole: f64 = areas.clone().sum();
+    let most = areas.fold(0.0, f64::max);
+    faces >= MANY && whole - most > MINORITY_SHARE * whole
+}
+
 /// Piece, label, and the area of the one that bears the other; sorted, each pair once.
-fn votes(mesh: &LabelledMesh<'_>, of_face: &[u32]) -> Vec<(u32, u32, f64)> {
+pub(crate) fn votes(mesh: &LabelledMesh<'_>, of_face: &[u32]) -> Vec<(u32, u32, f64)> {
     let faces = of_face.iter().zip(mesh.labels).zip(mesh.shapes);
     let mut votes: Vec<(u32, u32, f64)> = faces
         .map(|((&piece, label), shape)| (piece, label.0, shape.area))

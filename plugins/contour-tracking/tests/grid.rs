@@ -11,12 +11,12 @@ const SIDE: u32 = 4;
 fn ground<'a>(
     topology: &'a Topology,
     positions: &'a [Position],
-    scores: &'a [BoundaryScore],
+    scores: &'a &[BoundaryScore],
 ) -> Ground<'a> {
     Ground {
         topology,
         positions,
-        scores,
+        evidence: scores,
         turn_weight: 2.0,
         max_gap: f64::INFINITY,
     }
@@ -76,9 +76,9 @@ impl Sheet {
     }
 
     fn mark(&mut self, settings: &ContourTrackingSettings) {
+        let scores = &&self.scores[..];
         mark(
-            &self.topology,
-            &self.scores,
+            &ground(&self.topology, &self.positions, scores),
             &self.sharp,
             &self.labels,
             settings,
@@ -92,7 +92,7 @@ impl Sheet {
 
     fn finish(&mut self) -> (usize, usize) {
         let ends = track(
-            ground(&self.topology, &self.positions, &self.scores),
+            ground(&self.topology, &self.positions, &&self.scores[..]),
             &mut self.states,
         );
         (

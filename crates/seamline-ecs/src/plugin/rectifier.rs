@@ -1,5 +1,8 @@
 //! Rectifiers: cleaner boundaries for a labelled mesh.
 
+use std::cell::Cell;
+use std::sync::Arc;
+
 use bevy_ecs::prelude::*;
 use bevy_ecs::system::SystemParam;
 use seamline_mesh::{Mesh, Topology};
@@ -23,10 +26,59 @@ pub trait Rectifier: StepSettings {
     /// Where it cannot do its work on this mesh: the job ends with this reason.
     fn rectify(&self, mesh: &LabelledMesh<'_>) -> Result<Labels, StepError>;
 
-    /// The labels [`Rectifier::rectify`] would give, if they are the same whatever the scores. Asked where boundaries were
-    /// given, before there are any scores (`mesh.scores` is empty); after an answer none are computed.
-    fn without_scores(&self, _mesh: &LabelledMesh<'_>) -> Option<Labels> {
+    /// The labels [`Rectifier::rectify`] would give, found with the scores of a few edges alone. Asked where boundaries
+    /// were given, before there are any scores (`mesh.scores` is empty): each is computed when it is asked for, with the
+    /// curvature that it needs. `None` has all of them computed, and `rectify` called.
+    fn rectify_asking(&self, _mesh: &LabelledMesh<'_>, _evidence: &dyn Evidence) -> Option<Labels> {
         None
+    }
+}
+
+/// What speaks for boundaries and against them, to be asked piece by piece.
+pub trait Evidence {
+    /// How badly an edge would serve as a boundary, 0 (well) to 90 degrees.
+    fn score(&self, edge: u32) -> f64;
+
+    /// The surface each face lies on as exactly as the mesh has it, [`NONE`] where there is none; empty where none are
+    /// looked for. Looking for them costs more than all scores.
+    fn surfaces(&self) -> Vec<u32> {
+        Vec::new()
+    }
+}
+
+impl Evidence for &[BoundaryScore] {
+    fn score(&self, edge: u32) -> f64 {
+        self[edge as usize].0
+    }
+}
+
+/// Computes evidence when it is asked for, for a mesh that is lent without any. Put into the world by the steps that
+/// know how.
+#[derive(Resource, Clone)]
+pub struct EvidenceOnDemand(pub MakeEvidence);
+
+/// What makes the evidence of one mesh.
+pub type MakeEvidence =
+    Arc<dyn for<'a> Fn(LabelledMesh<'a>) -> Box<dyn Evidence + 'a> + Send + Sync>;
+
+/// Evidence of which each score is computed once.
+struct Asked<'a> {
+    evidence: Box<dyn Evidence + 'a>,
+    /// Not a number where it was not asked for.
+    known: Vec<Cell<f64>>,
+}
+
+impl Evidence for Asked<'_> {
+    fn score(&self, edge: u32) -> f64 {
+        let known = &self.known[edge as usize];
+        if known.get().is_nan() {
+            known.set(self.evidence.score(edge));
+        }
+        known.get()
+    }
+
+    fn surfaces(&self) -> Vec<u32> {
+        self.evidence.surfaces()
     }
 }
 
@@ -43,12 +95,12 @@ pub struct Labels {
     pub counts: Vec<(&'static str, usize)>,
 }
 
-/// What the rectifier has answered before there were scores.
+/// What the rectifier has answered where scores were computed as it asked for them.
 #[derive(Resource, Clone, Debug, Default)]
 pub struct Answered(pub(crate) Option<Labels>);
 
 impl Answered {
-    /// Is there an answer that needs no scores?
+    /// Is there an answer already?
     pub fn is_there(&self) -> bool {
         self.0.is_some()
     }
@@ -163,18 +215,30 @@ impl BoundaryColumns<'_, '_> {
     }
 }
 
-/// The system that asks for an answer before there are scores ([`Rectifier::without_scores`]).
+/// The system that asks for an answer before there are scores ([`Rectifier::rectify_asking`]).
 pub(crate) fn early_systems(
-    without_scores: impl Fn(&LabelledMesh<'_>) -> Option<Labels> + Send + Sync + 'static,
+    rectify: impl Fn(&LabelledMesh<'_>, &dyn Evidence) -> Option<Labels> + Send + Sync + 'static,
 ) -> StageSystems {
     let system = move |columns: BoundaryColumns,
                        labels: Column<FaceLabel>,
-                       mut answered: ResMut<Answered>| {
+                       on_demand: Option<Res<EvidenceOnDemand>>,
+                       mut answered: ResMut<Answered>,
+                       mut counts: ResMut<Counts>| {
+        let Some(on_demand) = on_demand else { return };
         let seen = LabelledMesh {
             scores: &[],
             ..columns.lend(&labels)
         };
-        answered.0 = without_scores(&seen);
+        let evidence = Asked {
+            evidence: (on_demand.0)(seen),
+            known: vec![Cell::new(f64::NAN); seen.angles.len()],
+        };
+        answered.0 = rectify(&seen, &evidence);
+        if answered.is_there() {
+            let known = evidence.known.iter();
+            let asked = known.filter(|score| !score.get().is_nan()).count();
+            counts.note(Stage::Score, "edges_scored", asked);
+        }
     };
     system.into_configs()
 }

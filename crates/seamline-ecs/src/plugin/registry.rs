@@ -60,7 +60,7 @@ impl PluginEntry {
             let settings: R = settings::read(in_force)?;
             Ok(Arc::new(move || {
                 let settings = settings.clone();
-                early_systems(move |mesh| settings.without_scores(mesh))
+                early_systems(move |mesh, evidence| settings.rectify_asking(mesh, evidence))
             }))
         };
         Self {

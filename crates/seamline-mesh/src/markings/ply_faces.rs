@@ -195,6 +195,20 @@ mod tests {
         read(&ply(properties, rows), by, &two_quads()).map_err(|e| format!("{e}; {}", e.hint()))
     }
 
+    /// As MeshLab 2025 saves a cube with its first three faces selected: coordinates in double precision, another flag set
+    /// on every face, a blank at the end of each line.
+    #[test]
+    fn faces_selected_in_meshlab_are_one_patch_and_the_rest_another() {
+        let saved = "ply\nformat ascii 1.0\ncomment VCGLIB generated\nelement vertex 8\nproperty double x\n\
+                     property double y\nproperty double z\nelement face 2\n\
+                     property list uchar int vertex_indices\nproperty int flags\nend_header\n";
+        let rows = "-0.5 0.5 0.5 \n".repeat(8) + "4 0 1 2 3 262176 \n4 6 4 5 7 262144 \n";
+        for by in [None, Some("flags")] {
+            let read = read((saved.to_owned() + &rows).as_bytes(), by, &two_quads());
+            assert_eq!(read.unwrap(), Markings::Labels(vec![0, 1]));
+        }
+    }
+
     const COLOURED: &str = "property uchar red\nproperty uchar green\nproperty uchar blue\n";
 
     #[test]

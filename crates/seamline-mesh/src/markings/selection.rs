@@ -1,5 +1,6 @@
 //! A selection as CGAL saves it, `NAME.selection.txt`: three lines with the numbers of the selected vertices, of the
-//! selected faces, and of the ends of the selected edges, two an edge.
+//! selected faces, and of the ends of the selected edges, two an edge, as CGAL's `Seam_mesh::add_seams` reads them. The demo
+//! of 2014 numbered edges in the order of its own halfedges instead, which nobody else knows: such a file does not fit.
 
 use super::edges::EdgeList;
 use super::{Markings, MarkingsError};

@@ -156,7 +156,7 @@ pub(super) enum Outcome {
     Behind { job: Job, other: JobId },
     /// There are no results.
     Failed { job: Job, failure: Failure },
-    /// The file says of itself that there is more to come.
+    /// The file says of itself that there is more to come, or the halves of a pair do not fit (yet).
     EndsEarly { job: Job, failure: Failure },
     /// The file changed before it was read: it was not ready after all.
     Changed { job: Job },

@@ -65,7 +65,8 @@ impl RequeueError {
 }
 
 /// Makes jobs pending again, and brings their files back to where they came from: out of quarantine (the
-/// reason beside it is deleted) or out of the folder of done files. If another file has the name by
+/// reason beside it is deleted) or out of the folder of done files; a mesh with its markings, unless others have been
+/// dropped since. If another file has the name by
 /// now, this one gets a number, as everywhere. Without `jobs`, those in quarantine. A running daemon takes
 /// them up by itself; it may run meanwhile. Gives, for each job, where its file is now, or why not.
 ///
@@ -81,10 +82,28 @@ pub fn requeue(
         Some(jobs) => jobs.to_vec(),
         None => quarantined(&connection)?,
     };
-    Ok(jobs
-        .into_iter()
-        .map(|id| (id, one(&connection, id)))
+    let mut rows: Vec<(JobId, Option<Row>)> = Vec::with_capacity(jobs.len());
+    for id in jobs {
+        rows.push((id, row_of(&connection, id)?));
+    }
+    // Markings that came after those of a mesh go before them.
+    let are_markings = |row: &Option<Row>| {
+        let path = row.as_ref().map(|row| &row.path);
+        path.is_some_and(|path| markings_in(path).is_some())
+    };
+    rows.sort_by_key(|(_, row)| !are_markings(row));
+    let rows = rows.into_iter();
+    Ok(rows
+        .map(|(id, row)| {
+            let row = row.ok_or(RequeueError::Unknown(id.0));
+            (id, row.and_then(|row| one(&connection, &row)))
+        })
         .collect())
+}
+
+fn row_of(connection: &Connection, id: JobId) -> Result<Option<Row>, LedgerError> {
+    let row = format!("SELECT {COLUMNS} FROM jobs WHERE id = ?1");
+    Ok(connection.query_row(&row, [id.0], row::read).optional()?)
 }
 
 /// Of each path the last job, if it is in quarantine.
@@ -97,13 +116,8 @@ fn quarantined(connection: &Connection) -> Result<Vec<JobId>, LedgerError> {
     Ok(ids.collect::<Result<_, _>>()?)
 }
 
-fn one(connection: &Connection, id: JobId) -> Result<PathBuf, RequeueError> {
-    let row = format!("SELECT {COLUMNS} FROM jobs WHERE id = ?1");
-    let row = connection
-        .query_row(&row, [id.0], row::read)
-        .optional()
-        .map_err(LedgerError::from)?
-        .ok_or(RequeueError::Unknown(id.0))?;
+fn one(connection: &Connection, row: &Row) -> Result<PathBuf, RequeueError> {
+    let id = row.id;
     if let state @ (JobState::Pending | JobState::Running) = row.state {
         return Err(RequeueError::Under {
             id: id.0,
@@ -120,12 +134,12 @@ fn one(connection: &Connection, id: JobId) -> Result<PathBuf, RequeueError> {
     if let Some(later) = later {
         return Err(RequeueError::Followed { id: id.0, later });
     }
-    let (path, stamp) = bring_back(&row).map_err(|error| RequeueError::File {
+    let (path, stamp) = bring_back(row).map_err(|error| RequeueError::File {
         id: id.0,
         from: row.source.clone().unwrap_or_else(|| row.path.clone()),
         error,
     })?;
-    enter(connection, &row, &path, stamp).map_err(LedgerError::from)?;
+    enter(connection, row, &path, stamp).map_err(LedgerError::from)?;
     Ok(path)
 }
 
@@ -162,8 +176,10 @@ fn bring_back(row: &Row) -> io::Result<(PathBuf, Stamp)> {
         }
         Some(source) => {
             let path = move_aside(source, &row.path)?;
+            // What lies beside its place by now was dropped after it, and holds.
+            let is_followed = markings_of(&path).iter().any(|newer| newer.is_file());
             for markings in markings_of(source) {
-                if markings_in(source).is_none() && markings.is_file() {
+                if markings_in(source).is_none() && markings.is_file() && !is_followed {
                     move_aside(&markings, &beside(&path, &markings))?;
                 }
             }

@@ -15,6 +15,9 @@ pub struct Arrival<'a> {
     pub path: &'a Path,
     /// The file below its watched folder.
     pub relative: &'a Path,
+    /// What another tool has marked on it, if that is half of the work. What waits as a job of its own under this path does
+    /// not any more.
+    pub markings: Option<&'a Path>,
     /// [`crate::tracker::Stamp::word`] of the state in which it did.
     pub stamp: &'a str,
 }
@@ -78,7 +81,18 @@ fn one(
     arrival: &Arrival<'_>,
     settings: &str,
 ) -> Result<TakenIn, LedgerError> {
-    let Arrival { path, stamp, .. } = *arrival;
+    let Arrival {
+        path,
+        stamp,
+        markings,
+        ..
+    } = *arrival;
+    if let Some(markings) = markings {
+        transaction.execute(
+            "UPDATE jobs SET state = 'gone', ended_at = ?2 WHERE path = ?1 AND state = 'pending'",
+            params![markings.as_os_str().as_bytes(), now_ms()],
+        )?;
+    }
     Ok(match last_job(transaction, path, stamp, settings)? {
         Last::OfOtherWork => return new(transaction, arrival),
         Last::Pending(row) => {

@@ -25,6 +25,7 @@ impl Home {
     fn take_in_with(&mut self, path: &str, stamp: &str, settings: &str) -> TakenIn {
         let arrival = Arrival {
             path: Path::new(path),
+            markings: None,
             relative: Path::new(path),
             stamp,
         };
@@ -97,6 +98,7 @@ fn names_need_not_be_text() {
     let name = Path::new(std::ffi::OsStr::from_bytes(b"\xff\n.stl"));
     let arrival = Arrival {
         path: name,
+        markings: None,
         relative: name,
         stamp: "1",
     };

@@ -89,6 +89,7 @@ impl Open {
             .map(|(ready, stamp)| Arrival {
                 path: &ready.file.path,
                 relative: &ready.relative,
+                markings: ready.markings.as_ref().map(|markings| &*markings.path),
                 stamp,
             })
             .collect();

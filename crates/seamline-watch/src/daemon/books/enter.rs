@@ -65,7 +65,7 @@ impl Open {
                 Ok(())
             }
             Outcome::Failed { job, failure } => self.failed(job, failure),
-            Outcome::EndsEarly { job, failure } => self.ends_early(job, &failure),
+            Outcome::EndsEarly { job, failure } => self.ends_early(job, failure),
             Outcome::Changed { job } => {
                 self.record(|ledger| ledger.put_back(id))?;
                 self.with.metrics.job_ended(OutcomeKind::Changed);
@@ -184,9 +184,12 @@ impl Open {
         Ok(())
     }
 
-    fn ends_early(&mut self, job: Job, failure: &Failure) -> Result<(), WatchError> {
-        if self.with.options.once {
-            return self.leave(job, failure);
+    /// There may be more to come: of a file that is cut short, or of a pair whose halves do not fit.
+    fn ends_early(&mut self, job: Job, failure: Failure) -> Result<(), WatchError> {
+        match (self.with.options.once, failure.fault.of_content) {
+            (true, true) => return self.give_up(job, failure),
+            (true, false) => return self.leave(job, &failure),
+            (false, _) => {}
         }
         let (id, fault) = (job.file.id, &failure.fault);
         self.record(|ledger| ledger.postpone(id, fault, false))?;

@@ -174,6 +174,10 @@ fn parse(
             let name = file.path.file_name().unwrap_or_default().display();
             let mut failure = failure_of(&error).of(content.clone());
             failure.fault.message = format!("{name}: {}", failure.fault.message);
+            // One half may have been written anew, and the other not yet.
+            if !job.file.overdue {
+                failure.remedy = Remedy::Again;
+            }
             failure
         })?);
         mesh.content.clone_from(&content);

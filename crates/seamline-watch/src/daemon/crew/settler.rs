@@ -13,7 +13,7 @@ use crate::VERSION;
 use crate::config::After;
 use crate::daemon::job::{Failure, Job, Outcome, Settle};
 use crate::outputs::{TEMPORARY_END, TEMPORARY_START};
-use crate::pairs::beside;
+use crate::pairs::{beside, meshes_of};
 use crate::quarantine::{Reason, put_aside, reason_beside};
 use crate::relocate::move_aside;
 use crate::tracker::{FileFact, Stamp};
@@ -66,7 +66,8 @@ fn settle(job: &Job, failure: Option<&Failure>) -> io::Result<Option<PathBuf>> {
     Ok(Some(place))
 }
 
-/// Markings go where their mesh has gone, under its name.
+/// Markings go where their mesh has gone, under its name; but they stay while another mesh needs them, and one that
+/// failed takes a copy.
 fn settle_markings(job: &Job, failed: bool, mesh: &Path) -> io::Result<()> {
     let Some(FileFact { path, stamp }) = &job.file.markings else {
         return Ok(());
@@ -74,10 +75,29 @@ fn settle_markings(job: &Job, failed: bool, mesh: &Path) -> io::Result<()> {
     if !fs::metadata(path).is_ok_and(|found| stamp.is_moved(&Stamp::of(&found))) {
         return Ok(());
     }
+    if serve_another_mesh(job, path) {
+        let copy = beside(mesh, path);
+        return match failed && !copy.exists() {
+            true => fs::copy(path, copy).map(|_| ()),
+            false => Ok(()),
+        };
+    }
     if !failed && job.after == After::Delete {
         return fs::remove_file(path);
     }
     move_aside(path, &beside(mesh, path)).map(|_| ())
+}
+
+/// Does another mesh of the same stem lie beside markings, to be worked on with them?
+fn serve_another_mesh(job: &Job, markings: &Path) -> bool {
+    let Some(watched) = job.setup.config.watched_with(markings) else {
+        return false;
+    };
+    meshes_of(markings)
+        .iter()
+        .filter(|mesh| **mesh != job.file.path && mesh.is_file())
+        .filter_map(|mesh| mesh.strip_prefix(&watched.root).ok())
+        .any(|mesh| watched.include.take(mesh) && !watched.exclude.take(mesh))
 }
 
 /// Is this what was read? If not, something new came in its place, which is a job of its own and must not be

@@ -1,5 +1,5 @@
-"""The parts, by family; those of the second series in `second/`."""
-from . import electrical, free_forms, gears, housings, second, turned_parts
+"""The parts, by family; those of the second series in `second/`, of the third in `third/`."""
+from . import electrical, free_forms, gears, housings, second, third, turned_parts
 from .register import SERIES
 
-__all__ = ["SERIES", "electrical", "free_forms", "gears", "housings", "second", "turned_parts"]
+__all__ = ["SERIES", "electrical", "free_forms", "gears", "housings", "second", "third", "turned_parts"]

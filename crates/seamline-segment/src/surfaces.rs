@@ -12,6 +12,7 @@ use seamline_ecs::{
     Column, ColumnMut, Counts, InputMesh, LabelledMesh, Measures, MeshScale, MeshTopology, Settled,
     Stage, StageSystems,
 };
+use seamline_mesh::{Mesh, Topology};
 use seamline_primitives::{Fitted, Found, Kind, find};
 use serde::{Deserialize, Serialize};
 
@@ -83,22 +84,26 @@ fn look(
     positions: Column<Position>,
 ) -> Found {
     let positions: Vec<DVec3> = positions.iter().map(|p| p.0).collect();
-    let [low, high] = mesh.0.bounding_box();
+    find_stored(&positions, &topology.0, &mesh.0, scale.length)
+}
+
+/// Surfaces of a scaled mesh whose vertices are as exact as the file stores them; `length` of the file is 1 of it.
+fn find_stored(positions: &[DVec3], topology: &Topology, mesh: &Mesh, length: f64) -> Found {
+    let [low, high] = mesh.bounding_box();
     let farthest = low.abs().max(high.abs()).max_element();
-    find(&positions, &topology.0, farthest / scale.length)
+    find(positions, topology, farthest / length)
 }
 
 /// The surface each face lies on exactly, [`NONE`] where there is none; none at all where they explain too little.
 pub(crate) fn exact_surfaces(settings: &SurfaceSettings, mesh: &LabelledMesh<'_>) -> Vec<u32> {
     let positions: Vec<DVec3> = mesh.positions.iter().map(|p| p.0).collect();
     let [low, high] = mesh.mesh.bounding_box();
-    let farthest = low.abs().max(high.abs()).max_element();
     let none = (DVec3::INFINITY, DVec3::NEG_INFINITY);
     let (first, last) = positions
         .iter()
         .fold(none, |(low, high), &x| (low.min(x), high.max(x)));
     let length = (high - low).max_element() / (last - first).max_element();
-    let found = find(&positions, mesh.topology, farthest / length);
+    let found = find_stored(&positions, mesh.topology, mesh.mesh, length);
     if !settings.explains(&found) {
         return Vec::new();
     }

@@ -39,6 +39,7 @@ pub(crate) fn search(view: View, open: &[bool], rung: usize, tolerance: f64) -> 
         failed: vec![false; pieces.count()],
         amid_failure: vec![false; pieces.count()],
         in_a_row: 0,
+        rung,
         least: 1 + seeds.len() / SEEDS[rung],
     };
     let mut scouts: Vec<Scout> = Vec::new();
@@ -84,6 +85,7 @@ struct State {
     amid_failure: Vec<bool>,
     /// Seeds in vain one after the other.
     in_a_row: usize,
+    rung: usize,
     /// Pieces about a seed in vain that are none either.
     least: usize,
 }
@@ -102,7 +104,7 @@ impl State {
         for &piece in &found.midst {
             self.amid_failure[piece as usize] = true;
         }
-        if found.hypotheses.iter().any(|h| h.strong) {
+        if found.hypotheses.iter().any(|h| h.strong && (self.rung>0||h.exact)) {
             self.in_a_row /= 2;
         } else {
             self.in_a_row += 1;

@@ -37,6 +37,7 @@ mod crease_angles;
 mod creases;
 mod describe;
 mod eigen;
+mod freedom;
 mod guess;
 mod hypothesis;
 mod linear;

@@ -2,6 +2,7 @@
 
 use glam::DVec3;
 
+use crate::freedom::{Cone, Cylinder, Frame, Freedom, Plane, Sphere, Torus};
 use crate::linear::solve;
 use crate::surface::{Kind, Surface};
 
@@ -13,89 +14,123 @@ pub(crate) struct Fit {
     pub rms: f64,
 }
 
+/// Points in coordinates of their own: their centre is the origin, their root mean square distance from it one.
+pub(crate) struct Cloud {
+    centre: DVec3,
+    radius: f64,
+    points: Vec<DVec3>,
+}
+
+impl Cloud {
+    /// `None` if all points are one, or a number is not finite.
+    pub fn of(points: &[DVec3]) -> Option<Self> {
+        let count = points.len() as f64;
+        let centre = points.iter().sum::<DVec3>() / count;
+        let squares: f64 = points.iter().map(|x| x.distance_squared(centre)).sum();
+        let radius = (squares / count).sqrt();
+        (radius > 0.0 && radius.is_finite()).then(|| Self {
+            centre,
+            radius,
+            points: points.iter().map(|&x| (x - centre) / radius).collect(),
+        })
+    }
+}
+
 /// Improves `guess` until the points' distances are far below `tolerance`, or no longer fall.
 ///
 /// Where points lie on a surface of the kind, five to ten steps do. Where they do not, distances soon stop
 /// falling fast, and it is given up: nearly all time goes into fits that fail. `None` if a number left
 /// the finite.
-pub(crate) fn refine(guess: Surface, points: &[DVec3], tolerance: f64) -> Option<Fit> {
-    descend(guess, points, tolerance, 0.5)
+pub(crate) fn refine(guess: Surface, cloud: &Cloud, tolerance: f64) -> Option<Fit> {
+    descend(guess, cloud, tolerance, 0.5)
 }
 
 /// As [`refine`], but does not give up while distances fall at all.
 pub(crate) fn refine_patiently(guess: Surface, points: &[DVec3], tolerance: f64) -> Option<Fit> {
-    descend(guess, points, tolerance, 0.99)
+    descend(guess, &Cloud::of(points)?, tolerance, 0.99)
 }
 
-fn descend(guess: Surface, points: &[DVec3], tolerance: f64, falls_to: f64) -> Option<Fit> {
-    let (centre, radius) = extent(points)?;
-    let goal = 0.02 * tolerance / radius;
-    let near = tolerance / radius;
-    let local: Vec<DVec3> = points.iter().map(|&x| (x - centre) / radius).collect();
-    let mut surface = moved(guess, centre, radius);
+fn descend(guess: Surface, cloud: &Cloud, tolerance: f64, falls_to: f64) -> Option<Fit> {
+    let goal = Goal {
+        near: tolerance / cloud.radius,
+        falls_to,
+    };
+    let surface = moved(guess, cloud.centre, cloud.radius);
     if !finite(&surface) {
         return None;
     }
-    let mut at = Equations::at(&surface, &local);
-    let count = local.len() as f64;
-    let rms = |squares: f64| (squares / count).sqrt();
-    let mut lambda = 1e-3;
-    let mut before = [f64::INFINITY; 2];
-    for _ in 0..MOST_STEPS {
-        if rms(at.squares) < goal {
-            break;
-        }
-        let now = rms(at.squares);
-        let hopeless = now > near && now > falls_to * before[0];
-        if hopeless || now > 0.99 * before[1] {
-            break;
-        }
-        before = [before[1], now];
-        let mut improved = false;
-        for _ in 0..4 {
-            let Some(step) = solve(damped(&surface, at.matrix, lambda), at.right) else {
-                lambda *= 8.0;
-                continue;
-            };
-            let falls_by: f64 = step.iter().zip(at.right).map(|(s, r)| s * r).sum();
-            if now > near && at.squares - falls_by > falls_to * falls_to * at.squares {
-                break;
-            }
-            let next = stepped(&surface, step);
-            let there = Equations::at(&next, &local);
-            if there.squares < at.squares && finite(&next) {
-                surface = next;
-                at = there;
-                lambda /= 10.0;
-                improved = true;
-                break;
-            }
-            lambda *= 8.0;
-        }
-        if !improved {
-            break;
-        }
-    }
-    let surface = moved(surface, -centre / radius, 1.0 / radius);
+    let points = &cloud.points;
+    let (surface, rms) = match guess.kind {
+        Kind::Plane => goal.descend::<3, Plane>(surface, points),
+        Kind::Sphere => goal.descend::<4, Sphere>(surface, points),
+        Kind::Cylinder => goal.descend::<5, Cylinder>(surface, points),
+        Kind::Cone => goal.descend::<6, Cone>(surface, points),
+        Kind::Torus => goal.descend::<7, Torus>(surface, points),
+    };
     Some(Fit {
-        surface,
-        rms: rms(at.squares) * radius,
+        surface: moved(surface, -cloud.centre / cloud.radius, 1.0 / cloud.radius),
+        rms: rms * cloud.radius,
     })
 }
 
 const MOST_STEPS: usize = 15;
 
-/// Centre of the points, and root mean square distance from it.
-fn extent(points: &[DVec3]) -> Option<(DVec3, f64)> {
-    let count = points.len() as f64;
-    let centre = points.iter().sum::<DVec3>() / count;
-    let radius = (points
-        .iter()
-        .map(|x| x.distance_squared(centre))
-        .sum::<f64>()
-        / count)
-        .sqrt();
-    (radius > 0.0 && radius.is_finite()).then_some((centre, radius))
+/// What a descent is after, in the points' own coordinates.
+struct Goal {
+    /// Root mean square distance that will do.
+    near: f64,
+    /// Farther off, distances must fall to this share at every second step.
+    falls_to: f64,
+}
+
+impl Goal {
+    /// The surface a descent ends at, and the root mean square distance of the points.
+    fn descend<const N: usize, F: Freedom<N>>(
+        &self,
+        mut surface: Surface,
+        points: &[DVec3],
+    ) -> (Surface, f64) {
+        let Self { near, falls_to } = *self;
+        let count = points.len() as f64;
+        let mut frame = Frame::of(&surface);
+        let mut at = Equations::at(F::at(&surface), &frame, points);
+        let mut lambda = 1e-3;
+        let mut before = [f64::INFINITY; 2];
+        for _ in 0..MOST_STEPS {
+            let now = (at.squares / count).sqrt();
+            let hopeless = now > near && now > falls_to * before[0];
+            if now < 0.02 * near || hopeless || now > 0.99 * before[1] {
+                break;
+            }
+            before = [before[1], now];
+            let mut improved = false;
+            for _ in 0..4 {
+                let Some(step) = solve(at.damped(lambda), at.right) else {
+                    lambda *= 8.0;
+                    continue;
+                };
+                let falls_by: f64 = step.iter().zip(at.right).map(|(s, r)| s * r).sum();
+                if now > near && at.squares - falls_by > falls_to * falls_to * at.squares {
+                    break;
+                }
+                let next = frame.stepped(&surface, F::step(step));
+                let there = Equations::at(F::at(&next), &Frame::of(&next), points);
+                if there.squares < at.squares && finite(&next) {
+                    surface = next;
+                    frame = Frame::of(&surface);
+                    at = there;
+                    lambda /= 10.0;
+                    improved = true;
+                    break;
+                }
+                lambda *= 8.0;
+            }
+            if !improved {
+                break;
+            }
+        }
+        (surface, (at.squares / count).sqrt())
+    }
 }
 
 /// The surface in coordinates `(x - centre) / radius`.
@@ -116,29 +151,27 @@ fn finite(surface: &Surface) -> bool {
     sane && surface.a.is_finite() && surface.b.is_finite()
 }
 
-type Matrix = [[f64; 8]; 8];
-
 /// What a step starts from.
-struct Equations {
+struct Equations<const N: usize> {
     /// Sum of the squared distances `f`.
     squares: f64,
     /// `J^T J`, its lower half.
-    matrix: Matrix,
+    matrix: [[f64; N]; N],
     /// `-J^T f`.
-    right: [f64; 8],
+    right: [f64; N],
 }
 
-impl Equations {
-    fn at(surface: &Surface, points: &[DVec3]) -> Self {
+impl<const N: usize> Equations<N> {
+    fn at<F: Freedom<N>>(surface: F, frame: &Frame, points: &[DVec3]) -> Self {
         let mut of = Self {
             squares: 0.0,
-            matrix: [[0.0; 8]; 8],
-            right: [0.0; 8],
+            matrix: [[0.0; N]; N],
+            right: [0.0; N],
         };
         for &x in points {
-            let (f, row) = surface.derivatives(x);
+            let (f, row) = surface.distance(frame.seen(x));
             of.squares += f * f;
-            for i in 0..8 {
+            for i in 0..N {
                 of.right[i] -= row[i] * f;
                 for j in 0..=i {
                     of.matrix[i][j] += row[i] * row[j];
@@ -147,35 +180,13 @@ impl Equations {
         }
         of
     }
-}
 
-/// Damped, and held where the surface does not depend on the step: along the axis' own direction, and for
-/// a point that may slide along the axis.
-fn damped(surface: &Surface, mut matrix: Matrix, lambda: f64) -> Matrix {
-    let trace: f64 = (0..8).map(|i| matrix[i][i]).sum();
-    let d = surface.axis.to_array();
-    let slides = matches!(surface.kind, Kind::Cylinder | Kind::Cone);
-    for i in 0..3 {
-        for j in 0..=i {
-            matrix[3 + i][3 + j] += trace * d[i] * d[j];
-            if slides {
-                matrix[i][j] += trace * d[i] * d[j];
-            }
+    fn damped(&self, lambda: f64) -> [[f64; N]; N] {
+        let mut matrix = self.matrix;
+        let trace: f64 = (0..N).map(|i| matrix[i][i]).sum();
+        for (i, row) in matrix.iter_mut().enumerate() {
+            row[i] += lambda * row[i] + 1e-13 * trace;
         }
-    }
-    for (i, row) in matrix.iter_mut().enumerate() {
-        row[i] += lambda * row[i] + 1e-13 * trace;
-    }
-    matrix
-}
-
-fn stepped(surface: &Surface, step: [f64; 8]) -> Surface {
-    let [px, py, pz, dx, dy, dz, a, b] = step;
-    Surface {
-        kind: surface.kind,
-        point: surface.point + DVec3::new(px, py, pz),
-        axis: (surface.axis + DVec3::new(dx, dy, dz)).normalize_or(surface.axis),
-        a: surface.a + a,
-        b: surface.b + b,
+        matrix
     }
 }

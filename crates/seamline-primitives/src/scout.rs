@@ -8,7 +8,7 @@ use glam::DVec3;
 use crate::around::{Around, DISC_SHRINKS, MOST_IN_RING, STRIP};
 use crate::guess::guesses;
 use crate::hypothesis::{Hypothesis, View};
-use crate::refine::refine;
+use crate::refine::{Cloud, refine};
 use crate::surface::{Kind, Surface};
 
 /// Pieces of a disc that a fit looks at first.
@@ -209,13 +209,16 @@ impl<'a> Scout<'a> {
             .step_by(vertices.len().div_ceil(MOST_POINTS))
             .map(|&v| self.view.positions[v as usize])
             .collect();
+        let Some(cloud) = Cloud::of(&points) else {
+            return true;
+        };
         let facets = self.view.facets(around);
         let mut first = guesses(kind, &facets.between(&points));
         if matches!(kind, Kind::Cylinder | Kind::Cone) && around.len() == STRIP {
             first.extend(guesses(kind, &facets.paired().between(&points)));
         }
         for guess in first {
-            let Some(fit) = refine(guess, &points, self.tolerance) else {
+            let Some(fit) = refine(guess, &cloud, self.tolerance) else {
                 continue;
             };
             if fit.rms > self.tolerance || is_degenerate(&fit.surface) {
@@ -263,7 +266,9 @@ impl<'a> Scout<'a> {
             let mut grown = false;
             for (among, goal) in look.into_iter().zip([1.0, FINAL_SHARE]) {
                 let points = self.view.some_points(&among, MOST_POINTS);
-                let Some(fit) = refine(surface, &points, goal * self.tolerance) else {
+                let fit = Cloud::of(&points)
+                    .and_then(|cloud| refine(surface, &cloud, goal * self.tolerance));
+                let Some(fit) = fit else {
                     continue;
                 };
                 if fit.rms > self.tolerance {

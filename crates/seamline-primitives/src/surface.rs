@@ -1,5 +1,4 @@
-//! The five surfaces of mechanical parts, each with its signed distance, its gradient and what a distance
-//! owes to each parameter.
+//! The five surfaces of mechanical parts, each with its signed distance and its gradient.
 
 use glam::DVec3;
 
@@ -52,7 +51,6 @@ pub struct Surface {
 /// A point as a surface of revolution sees it: height along the axis, distance from it, direction there.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct AboutAxis {
-    pub from_point: DVec3,
     pub height: f64,
     pub distance: f64,
     pub outward: DVec3,
@@ -71,7 +69,6 @@ impl Surface {
         let across = from_point - height * self.axis;
         let distance = across.length();
         AboutAxis {
-            from_point,
             height,
             distance,
             outward: if distance > 0.0 {
@@ -132,81 +129,18 @@ impl Surface {
             }
         }
     }
-
-    /// Distance of `x`, and its derivatives by point (3), axis (3), `a` and `b`.
-    #[inline]
-    pub(crate) fn derivatives(&self, x: DVec3) -> (f64, [f64; 8]) {
-        let row = |point: DVec3, axis: DVec3, a: f64, b: f64| {
-            [point.x, point.y, point.z, axis.x, axis.y, axis.z, a, b]
-        };
-        match self.kind {
-            Kind::Plane => {
-                let from_point = x - self.point;
-                (
-                    from_point.dot(self.axis),
-                    row(-self.axis, from_point, 0.0, 0.0),
-                )
-            }
-            Kind::Sphere => {
-                let from_point = x - self.point;
-                let length = from_point.length().max(f64::MIN_POSITIVE);
-                (
-                    length - self.a,
-                    row(-from_point / length, DVec3::ZERO, -1.0, 0.0),
-                )
-            }
-            Kind::Cylinder => {
-                let at = self.about_axis(x);
-                (
-                    at.distance - self.a,
-                    row(-at.outward, -at.height * at.outward, -1.0, 0.0),
-                )
-            }
-            Kind::Cone => {
-                let at = self.about_axis(x);
-                let (sin, cos) = self.b.sin_cos();
-                let over = at.distance - self.a;
-                (
-                    over * cos - at.height * sin,
-                    row(
-                        -at.outward * cos + self.axis * sin,
-                        -at.height * at.outward * cos - at.from_point * sin,
-                        -cos,
-                        -over * sin - at.height * cos,
-                    ),
-                )
-            }
-            Kind::Torus => {
-                let at = self.about_axis(x);
-                let over = at.distance - self.a;
-                let tube = (over * over + at.height * at.height)
-                    .sqrt()
-                    .max(f64::MIN_POSITIVE);
-                let (over, height) = (over / tube, at.height / tube);
-                (
-                    tube - self.b,
-                    row(
-                        -over * at.outward - height * self.axis,
-                        -over * at.height * at.outward + height * at.from_point,
-                        -over,
-                        -1.0,
-                    ),
-                )
-            }
-        }
-    }
 }
 
 #[cfg(test)]
-mod tests {
+pub(crate) mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    fn vector() -> impl Strategy<Value = DVec3> {
+    pub fn vector() -> impl Strategy<Value = DVec3> {
         prop::array::uniform3(-2.0..2.0f64).prop_map(DVec3::from_array)
     }
 
-    fn surface() -> impl Strategy<Value = Surface> {
+    pub fn surface() -> impl Strategy<Value = Surface> {
         let kinds = prop::sample::select(vec![
             Kind::Plane,
             Kind::Cylinder,
@@ -225,6 +159,12 @@ mod tests {
         )
     }
 
+    pub fn near_a_singular_place(surface: &Surface, x: DVec3) -> bool {
+        surface.about_axis(x).distance < 0.05
+            || surface.off_tube(x) < 0.05
+            || (x - surface.point).length() < 0.05
+    }
+
     const STEP: f64 = 1e-6;
 
     proptest! {
@@ -236,46 +176,8 @@ mod tests {
             let gradient = surface.gradient(x);
             let ahead = surface.distance(x + STEP * gradient);
             let behind = surface.distance(x - STEP * gradient);
-            let near_a_singular_place = surface.about_axis(x).distance < 0.05
-                || surface.off_tube(x) < 0.05
-                || (x - surface.point).length() < 0.05;
-            prop_assume!(!near_a_singular_place);
+            prop_assume!(!near_a_singular_place(&surface, x));
             prop_assert!(((ahead - behind) / (2.0 * STEP) - 1.0).abs() < 1e-5);
-        }
-
-        #[test]
-        fn derivatives_are_those_of_the_distance(surface in surface(), x in vector()) {
-            let near_a_singular_place = surface.about_axis(x).distance < 0.05
-                || surface.off_tube(x) < 0.05
-                || (x - surface.point).length() < 0.05;
-            prop_assume!(!near_a_singular_place);
-            let (distance, row) = surface.derivatives(x);
-            prop_assert!((distance - surface.distance(x)).abs() < 1e-12);
-            for (i, derivative) in row.into_iter().enumerate() {
-                // The axis is a direction: steps along it do not count.
-                if (3..6).contains(&i) {
-                    continue;
-                }
-                let stepped = |by: f64| {
-                    let mut next = surface;
-                    match i {
-                        0..3 => next.point[i] += by,
-                        6 => next.a += by,
-                        _ => next.b += by,
-                    }
-                    next.distance(x)
-                };
-                let slope = (stepped(STEP) - stepped(-STEP)) / (2.0 * STEP);
-                prop_assert!((slope - derivative).abs() < 1e-5, "{i}: {slope} {derivative}");
-            }
-            let across = surface.axis.any_orthonormal_vector();
-            let turned = |by: f64| {
-                let axis = (surface.axis + by * across).normalize();
-                Surface { axis, ..surface }.distance(x)
-            };
-            let slope = (turned(STEP) - turned(-STEP)) / (2.0 * STEP);
-            let derivative = DVec3::new(row[3], row[4], row[5]).dot(across);
-            prop_assert!((slope - derivative).abs() < 1e-5, "axis: {slope} {derivative}");
         }
     }
 

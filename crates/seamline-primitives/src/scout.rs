@@ -6,7 +6,7 @@ use std::hash::{DefaultHasher, Hash, Hasher};
 use glam::DVec3;
 
 use crate::around::{Around, DISC_SHRINKS, MOST_IN_RING, STRIP};
-use crate::guess::guesses;
+use crate::guess::{Facets, guesses};
 use crate::hypothesis::{Hypothesis, View};
 use crate::refine::{Cloud, refine};
 use crate::surface::{Kind, Surface};
@@ -40,6 +40,42 @@ impl About {
             hypotheses: best.into_iter().flatten().collect(),
             midst,
         }
+    }
+}
+
+/// A neighbourhood as all kinds look at it.
+struct Look<'p> {
+    pieces: &'p [u32],
+    hash: u64,
+    /// Its distinct vertices.
+    vertices: Vec<u32>,
+    sample: Option<Sample>,
+}
+
+/// What a surface is fitted to.
+struct Sample {
+    points: Vec<DVec3>,
+    cloud: Cloud,
+    facets: Facets,
+}
+
+impl Look<'_> {
+    /// `None` if all points are one.
+    fn sample(&mut self, view: View) -> Option<&Sample> {
+        if self.sample.is_none() {
+            let points: Vec<DVec3> = self
+                .vertices
+                .iter()
+                .step_by(self.vertices.len().div_ceil(MOST_POINTS))
+                .map(|&v| view.positions[v as usize])
+                .collect();
+            self.sample = Some(Sample {
+                cloud: Cloud::of(&points)?,
+                facets: view.facets(self.pieces),
+                points,
+            });
+        }
+        self.sample.as_ref()
     }
 }
 
@@ -82,51 +118,61 @@ impl<'a> Scout<'a> {
             Vec::new()
         };
         for triple in triples {
+            let mut look = self.look(&triple);
             for kind in [Kind::Cylinder, Kind::Cone] {
-                if self.settled(&best, kind) {
-                    continue;
+                if !self.settled(&best, kind) {
+                    self.attempt(seed, kind, &mut look, &mut best);
                 }
-                self.attempt(seed, kind, &triple, &mut best);
             }
         }
         let strip = self.around.strip(seed);
+        let mut look = self.look(&strip);
         for kind in [Kind::Cylinder, Kind::Cone] {
             if !self.settled(&best, kind) {
-                self.attempt(seed, kind, &strip, &mut best);
+                self.attempt(seed, kind, &mut look, &mut best);
             }
         }
         let stars = self.around.stars(seed);
         let mut spoke: [Vec<usize>; 4] = Default::default();
         for (i, star) in stars.iter().enumerate() {
+            let mut look = self.look(star);
             for kind in Kind::CURVED {
-                if !self.settled(&best, kind) && self.attempt(seed, kind, star, &mut best) {
+                if !self.settled(&best, kind) && self.attempt(seed, kind, &mut look, &mut best) {
                     spoke[kind as usize - 1].push(i);
                 }
             }
         }
         for (i, one) in stars.iter().enumerate() {
-            for other in &stars[..i] {
+            for (j, other) in stars[..i].iter().enumerate() {
+                let refuted = |kind: Kind| {
+                    let spoke = &spoke[kind as usize - 1];
+                    spoke.contains(&i) || spoke.contains(&j)
+                };
+                let kinds = [Kind::Cone, Kind::Torus].into_iter();
+                let mut left = kinds.filter(|&k| !refuted(k)).peekable();
+                if left.peek().is_none() {
+                    continue;
+                }
                 let mut pair = one.clone();
                 pair.extend(other.iter().filter(|p| !one.contains(p)));
-                for kind in [Kind::Cone, Kind::Torus] {
-                    let refuted = spoke[kind as usize - 1]
-                        .iter()
-                        .any(|&j| j == i || stars[j] == *other);
-                    if !refuted && !self.settled(&best, kind) {
-                        self.attempt(seed, kind, &pair, &mut best);
+                let mut look = self.look(&pair);
+                for kind in left {
+                    if !self.settled(&best, kind) {
+                        self.attempt(seed, kind, &mut look, &mut best);
                     }
                 }
             }
         }
         for rings in [1, 2] {
             let ring = self.around.rings(seed, rings);
+            let mut look = self.look(&ring);
             let holds = |star: &[u32]| star.iter().all(|p| ring.contains(p));
             for kind in Kind::CURVED {
                 // What does not fit a part does not fit the whole.
                 let refuted = spoke[kind as usize - 1].iter().any(|&i| holds(&stars[i]));
                 if !refuted
                     && !self.settled(&best, kind)
-                    && self.attempt(seed, kind, &ring, &mut best)
+                    && self.attempt(seed, kind, &mut look, &mut best)
                 {
                     // Nor does the next ring.
                     spoke[kind as usize - 1].extend(0..stars.len().min(1));
@@ -140,7 +186,7 @@ impl<'a> Scout<'a> {
     /// The surface of a kind that is fitted to pieces and grows from one of them.
     pub fn of_kind(&mut self, seed: u32, kind: Kind, pieces: &[u32]) -> Option<Hypothesis> {
         let mut best: [Option<Hypothesis>; 4] = Default::default();
-        self.attempt(seed, kind, pieces, &mut best);
+        self.attempt(seed, kind, &mut self.look(pieces), &mut best);
         best[kind as usize - 1].take()
     }
 
@@ -153,8 +199,9 @@ impl<'a> Scout<'a> {
         }
         let near: Vec<Vec<u32>> = best.iter().flatten().map(|h| h.pieces.clone()).collect();
         for around in near.iter().filter(|pieces| pieces.len() >= NEAR_PIECES) {
+            let mut look = self.look(around);
             for kind in [Kind::Cone, Kind::Torus] {
-                self.attempt(seed, kind, around, best);
+                self.attempt(seed, kind, &mut look, best);
             }
         }
     }
@@ -167,8 +214,9 @@ impl<'a> Scout<'a> {
         while disc.len() > MOST_IN_RING {
             let step = disc.len().div_ceil(DISC_SAMPLE);
             let sample: Vec<u32> = disc.iter().copied().step_by(step).collect();
+            let mut look = self.look(&sample);
             for kind in Kind::CURVED {
-                self.attempt(seed, kind, &sample, best);
+                self.attempt(seed, kind, &mut look, best);
                 let proved =
                     |h: &Hypothesis| h.strong && h.exact && h.pieces.len() >= disc.len() / 2;
                 if best[kind as usize - 1].as_ref().is_some_and(proved) {
@@ -187,38 +235,46 @@ impl<'a> Scout<'a> {
             .is_some_and(|h| h.strong && h.pieces.len() >= COVERS)
     }
 
+    fn look<'p>(&self, pieces: &'p [u32]) -> Look<'p> {
+        let mut hasher = DefaultHasher::new();
+        pieces.hash(&mut hasher);
+        Look {
+            pieces,
+            hash: hasher.finish(),
+            vertices: self.view.vertices_of(pieces),
+            sample: None,
+        }
+    }
+
     /// Fits a kind to a neighbourhood and lets it grow. False if it has too few vertices for that.
     fn attempt(
         &mut self,
         seed: u32,
         kind: Kind,
-        around: &[u32],
+        look: &mut Look,
         best: &mut [Option<Hypothesis>; 4],
     ) -> bool {
-        let vertices = self.view.vertices_of(around);
-        if vertices.len() < kind.degrees_of_freedom() + 2 {
+        if look.vertices.len() < kind.degrees_of_freedom() + 2 {
             return false;
         }
-        let mut hasher = DefaultHasher::new();
-        around.hash(&mut hasher);
-        if !self.tried.insert((hasher.finish(), kind)) {
+        if !self.tried.insert((look.hash, kind)) {
             return true;
         }
-        let points: Vec<DVec3> = vertices
-            .iter()
-            .step_by(vertices.len().div_ceil(MOST_POINTS))
-            .map(|&v| self.view.positions[v as usize])
-            .collect();
-        let Some(cloud) = Cloud::of(&points) else {
+        let around = look.pieces;
+        let Some(sample) = look.sample(self.view) else {
             return true;
         };
-        let facets = self.view.facets(around);
-        let mut first = guesses(kind, &facets.between(&points));
+        let Sample {
+            points,
+            cloud,
+            facets,
+        } = sample;
+        let mut first = guesses(kind, &facets.between(points));
         if matches!(kind, Kind::Cylinder | Kind::Cone) && around.len() == STRIP {
-            first.extend(guesses(kind, &facets.paired().between(&points)));
+            first.extend(guesses(kind, &facets.paired().between(points)));
         }
         for guess in first {
-            let Some(fit) = refine(guess, &cloud, self.tolerance) else {
+            let Some(fit) = refine(guess, cloud, self.tolerance) else {
                 continue;
             };
             if fit.rms > self.tolerance || is_degenerate(&fit.surface) {

@@ -2,8 +2,9 @@
 
 use std::collections::HashSet;
 
-use crate::hypothesis::{Hypothesis, View};
-use crate::scout::Scout;
+use crate::grow::Soil;
+use crate::hypothesis::Hypothesis;
+use crate::scout::{Scout, Tried};
 use crate::surface::Kind;
 
 /// Radii that differ by no more than this share are those of one tube.
@@ -12,7 +13,8 @@ const SAME_RADIUS: f64 = 0.02;
 const ONE_AXIS: f64 = 0.99996;
 
 /// Tori tried on each two strong cylinders of one radius that meet smoothly and have different axes.
-pub(crate) fn tori(view: View, scout: &mut Scout, found: &[Hypothesis]) -> Vec<Hypothesis> {
+pub(crate) fn tori(soil: &mut Soil, before: &Tried, found: &[Hypothesis]) -> Vec<Hypothesis> {
+    let view = soil.view;
     let mut holder = vec![None; view.pieces.count()];
     let mut on_torus = vec![false; view.pieces.count()];
     for (number, hypothesis) in found.iter().enumerate().filter(|(_, h)| h.strong) {
@@ -39,7 +41,7 @@ pub(crate) fn tori(view: View, scout: &mut Scout, found: &[Hypothesis]) -> Vec<H
         pieces.extend(&found[b].pieces);
         pieces.sort_unstable();
         pieces.dedup();
-        if let Some(torus) = scout.of_kind(seed, Kind::Torus, &pieces) {
+        if let Some(torus) = Scout::new(soil, seed, before).of_kind(Kind::Torus, &pieces) {
             for &piece in torus.pieces.iter().filter(|_| torus.strong && torus.exact) {
                 on_torus[piece as usize] = true;
             }

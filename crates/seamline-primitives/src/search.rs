@@ -6,11 +6,12 @@ use rayon::prelude::*;
 use crate::around::Around;
 use crate::bends;
 use crate::hypothesis::{Hypothesis, View};
-use crate::scout::{About, COVERS, Scout};
+use crate::grow::Soil;
+use crate::scout::{About, COVERS, Scout, Tried};
 
 /// After so many seeds in vain one more piece about each further one is none: a large free form takes as many
 /// seeds as the root of its pieces.
-const IN_A_ROW: usize = 32;
+const IN_A_ROW: usize = 16;
 /// A surface looked for on a looser rung has many pieces, so that some seeds among them suffice: about so many
 /// for all that is open.
 const SEEDS: [usize; 3] = [usize::MAX, 1000, 300];
@@ -18,14 +19,13 @@ const SEEDS: [usize; 3] = [usize::MAX, 1000, 300];
 const ALIKE: f64 = 3.0;
 /// Most seeds that are looked at side by side.
 const LANES: usize = 8;
-/// Seeds in vain, in a row, for each further one that is looked at beside the next.
-const FOR_A_LANE: usize = 8;
 
 /// All hypotheses worth weighing on the pieces that are `open`, in the order their seeds come: from the largest
 /// piece down.
 ///
-/// Where one seed after the other is in vain the next ones most likely are too, and are looked at side by side.
-/// How many depends on the seeds alone, so that results do not depend on the number of threads.
+/// Seeds are looked at side by side, one more each time, and half as many where one of them turned out to be on
+/// what another had found. How many depends on the seeds alone, so that results do not depend on the number of
+/// threads.
 pub(crate) fn search(view: View, open: &[bool], rung: usize, tolerance: f64) -> Vec<Hypothesis> {
     let pieces = view.pieces;
     let around = Around::new(view, open);
@@ -42,32 +42,45 @@ pub(crate) fn search(view: View, open: &[bool], rung: usize, tolerance: f64) -> 
         rung,
         least: 1 + seeds.len() / SEEDS[rung],
     };
-    let mut scouts: Vec<Scout> = Vec::new();
+    let soil = || Soil {
+        view,
+        rung,
+        tolerance,
+        around: Around::new(view, open),
+    };
+    let mut lanes: Vec<Soil> = Vec::new();
+    let mut tried = Tried::new();
     let mut found = Vec::new();
     let mut left = seeds.into_iter();
+    let mut side_by_side = 1;
     loop {
-        let side_by_side = (1 + state.in_a_row / FOR_A_LANE).min(LANES);
         let batch: Vec<u32> = left
             .by_ref()
             .filter(|&seed| state.wants(&around, seed))
             .take(side_by_side)
             .collect();
         if batch.is_empty() {
-            let mut scout = Scout::new(view, open, rung, tolerance);
-            found.extend(bends::tori(view, &mut scout, &found));
+            found.extend(bends::tori(&mut soil(), &tried, &found));
             return found;
         }
-        while scouts.len() < batch.len() {
-            scouts.push(Scout::new(view, open, rung, tolerance));
+        if lanes.len() < batch.len() {
+            lanes.resize_with(batch.len(), soil);
         }
         let about: Vec<About> = batch
             .par_iter()
-            .zip(&mut scouts)
+            .zip(&mut lanes)
             .with_max_len(1)
-            .map(|(&seed, scout)| scout.hypotheses_of(seed, !state.amid_failure[seed as usize]))
+            .map(|(&seed, soil)| {
+                Scout::new(soil, seed, &tried)
+                    .hypotheses(!state.amid_failure[seed as usize])
+            })
             .collect();
-        for (seed, about) in batch.into_iter().zip(about) {
-            if !state.covered[seed as usize] {
+        side_by_side = (side_by_side + 1).min(LANES);
+        for (seed, mut about) in batch.into_iter().zip(about) {
+            tried.extend(about.tried.drain());
+            if state.covered[seed as usize] {
+                side_by_side = side_by_side.div_ceil(2);
+            } else {
                 state.note(&around, seed, &about);
                 found.extend(about.hypotheses);
             }

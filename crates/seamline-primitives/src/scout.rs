@@ -10,7 +10,7 @@ use crate::refine::refine;
 use crate::surface::{Kind, Surface};
 
 /// Pieces of a disc that a fit looks at first.
-const DISC_SAMPLE: usize = 40;
+const DISC_SAMPLE: usize = 20;
 /// Fewest pieces of a surface that only comes near for others to be tried on them.
 const NEAR_PIECES: usize = 6;
 /// Pieces a strong hypothesis must have to spare its pieces from being seeds.

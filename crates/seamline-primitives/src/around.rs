@@ -30,6 +30,10 @@ impl Marks {
         self.now += 1;
     }
 
+    pub fn holds(&self, item: u32) -> bool {
+        self.of[item as usize] == self.now
+    }
+
     /// Marks an item; true if it was not marked yet.
     pub fn mark(&mut self, item: u32) -> bool {
         let was = std::mem::replace(&mut self.of[item as usize], self.now);

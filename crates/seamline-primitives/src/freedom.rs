@@ -1,7 +1,10 @@
 //! The degrees of freedom of each kind of surface, in a frame of its own: as many numbers as determine it, so that
 //! every step of a fit is determined, too.
+//!
+//! Points are looked at four at a time: nearly all time of a search goes into fits.
 
 use glam::DVec3;
+use wide::f64x4;
 
 use crate::surface::Surface;
 
@@ -23,11 +26,15 @@ impl Frame {
         }
     }
 
-    /// A point in this frame: across the axis, and along it.
-    pub fn seen(&self, x: DVec3) -> Seen {
-        let x = x - self.origin;
-        let [x, y, height] = [self.across[0], self.across[1], self.axis].map(|d| x.dot(d));
-        Seen { x, y, height }
+    /// Points in this frame: across the axis, and along it.
+    pub fn seen(&self, [x, y, z]: [f64x4; 3]) -> Seen {
+        let [x, y, z] = [x - self.origin.x, y - self.origin.y, z - self.origin.z];
+        let along = |d: DVec3| x * d.x + y * d.y + z * d.z;
+        Seen {
+            x: along(self.across[0]),
+            y: along(self.across[1]),
+            height: along(self.axis),
+        }
     }
 
     /// The surface after a step.
@@ -45,24 +52,26 @@ impl Frame {
     }
 }
 
-/// A point in a surface's frame.
+/// Points in a surface's frame.
 #[derive(Clone, Copy)]
 pub(crate) struct Seen {
-    x: f64,
-    y: f64,
-    height: f64,
+    x: f64x4,
+    y: f64x4,
+    height: f64x4,
 }
 
 impl Seen {
-    /// Distance from the axis, and the direction of that, any on the axis.
-    fn outward(self) -> (f64, [f64; 2]) {
+    /// Distance from the axis, and the direction of that, none on the axis.
+    fn outward(self) -> (f64x4, [f64x4; 2]) {
         let distance = (self.x * self.x + self.y * self.y).sqrt();
-        if distance > 0.0 {
-            (distance, [self.x / distance, self.y / distance])
-        } else {
-            (0.0, [1.0, 0.0])
-        }
+        let over = reciprocal(distance);
+        (distance, [self.x * over, self.y * over])
     }
+}
+
+/// One over a length, none of nothing.
+fn reciprocal(length: f64x4) -> f64x4 {
+    f64x4::ONE / length.max(f64x4::splat(f64::MIN_POSITIVE))
 }
 
 /// A change of a surface, in its frame.
@@ -79,8 +88,8 @@ pub(crate) struct Step {
 pub(crate) trait Freedom<const N: usize>: Copy {
     fn at(surface: &Surface) -> Self;
 
-    /// Signed distance of a point, and its derivatives by each degree of freedom.
-    fn distance(self, seen: Seen) -> (f64, [f64; N]);
+    /// Signed distances of points, and their derivatives by each degree of freedom.
+    fn distances(self, seen: Seen) -> (f64x4, [f64x4; N]);
 
     /// The step that changes the degrees of freedom by these numbers.
     fn step(by: [f64; N]) -> Step;
@@ -94,8 +103,8 @@ impl Freedom<3> for Plane {
         Self
     }
 
-    fn distance(self, Seen { x, y, height }: Seen) -> (f64, [f64; 3]) {
-        (height, [-1.0, x, y])
+    fn distances(self, Seen { x, y, height }: Seen) -> (f64x4, [f64x4; 3]) {
+        (height, [-f64x4::ONE, x, y])
     }
 
     fn step([along, u, v]: [f64; 3]) -> Step {
@@ -117,12 +126,12 @@ impl Freedom<4> for Sphere {
         Self { radius: surface.a }
     }
 
-    fn distance(self, Seen { x, y, height }: Seen) -> (f64, [f64; 4]) {
+    fn distances(self, Seen { x, y, height }: Seen) -> (f64x4, [f64x4; 4]) {
         let length = (x * x + y * y + height * height).sqrt();
-        let over = 1.0 / length.max(f64::MIN_POSITIVE);
+        let over = reciprocal(length);
         (
             length - self.radius,
-            [-x * over, -y * over, -height * over, -1.0],
+            [-x * over, -y * over, -height * over, -f64x4::ONE],
         )
     }
 
@@ -145,11 +154,17 @@ impl Freedom<5> for Cylinder {
         Self { radius: surface.a }
     }
 
-    fn distance(self, seen: Seen) -> (f64, [f64; 5]) {
+    fn distances(self, seen: Seen) -> (f64x4, [f64x4; 5]) {
         let (distance, [x, y]) = seen.outward();
         (
             distance - self.radius,
-            [-x, -y, -seen.height * x, -seen.height * y, -1.0],
+            [
+                -x,
+                -y,
+                -seen.height * x,
+                -seen.height * y,
+                -f64x4::ONE,
+            ],
         )
     }
 
@@ -180,7 +195,7 @@ impl Freedom<6> for Cone {
         }
     }
 
-    fn distance(self, seen: Seen) -> (f64, [f64; 6]) {
+    fn distances(self, seen: Seen) -> (f64x4, [f64x4; 6]) {
         let Self { radius, sin, cos } = self;
         let (distance, [x, y]) = seen.outward();
         let over = distance - radius;
@@ -192,7 +207,7 @@ impl Freedom<6> for Cone {
                 -y * cos,
                 tilt * x,
                 tilt * y,
-                -cos,
+                f64x4::splat(-cos),
                 -over * sin - seen.height * cos,
             ],
         )
@@ -222,13 +237,12 @@ impl Freedom<7> for Torus {
         }
     }
 
-    fn distance(self, seen: Seen) -> (f64, [f64; 7]) {
+    fn distances(self, seen: Seen) -> (f64x4, [f64x4; 7]) {
         let (distance, [x, y]) = seen.outward();
         let over = distance - self.major;
-        let tube = (over * over + seen.height * seen.height)
-            .sqrt()
-            .max(f64::MIN_POSITIVE);
-        let (over, height) = (over / tube, seen.height / tube);
+        let tube = (over * over + seen.height * seen.height).sqrt();
+        let per = reciprocal(tube);
+        let (over, height) = (over * per, seen.height * per);
         let tilt = height * distance - over * seen.height;
         (
             tube - self.minor,
@@ -239,7 +253,7 @@ impl Freedom<7> for Torus {
                 tilt * x,
                 tilt * y,
                 -over,
-                -1.0,
+                -f64x4::ONE,
             ],
         )
     }
@@ -265,7 +279,9 @@ mod tests {
 
     fn holds<const N: usize, F: Freedom<N>>(surface: &Surface, x: DVec3) {
         let frame = Frame::of(surface);
-        let (distance, row) = F::at(surface).distance(frame.seen(x));
+        let (distances, row) = F::at(surface).distances(frame.seen(x.to_array().map(f64x4::splat)));
+        let distance = distances.to_array()[0];
+        let row = row.map(|of_points| of_points.to_array()[0]);
         assert!((distance - surface.distance(x)).abs() < 1e-12);
         for (i, derivative) in row.into_iter().enumerate() {
             let stepped = |by: f64| {

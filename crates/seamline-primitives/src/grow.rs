@@ -1,7 +1,7 @@
 //! Surfaces grown from a seed over the pieces beside it, as far as they hold.
 
-use crate::around::Around;
-use crate::hypothesis::{Hypothesis, View};
+use crate::around::{Around, Marks};
+use crate::hypothesis::{Hypothesis, NORMALS_AGREE, View};
 use crate::refine::{Cloud, refine};
 use crate::surface::Surface;
 
@@ -20,6 +20,8 @@ pub(crate) struct Soil<'a> {
     pub rung: usize,
     pub tolerance: f64,
     pub around: Around<'a>,
+    /// Vertices on the surface that grows.
+    pub on_it: Marks,
 }
 
 impl Soil<'_> {
@@ -82,22 +84,31 @@ impl Soil<'_> {
         tolerance: f64,
         most: usize,
     ) -> Option<Vec<u32>> {
-        if !self.view.fits(seed, surface, sign, tolerance) {
+        let view = self.view;
+        if !view.fits(seed, surface, sign, tolerance) {
             return None;
         }
-        self.around.marks.begin(self.view.pieces.count());
+        // Most vertices of a piece are known from those before it.
+        let on_it = &mut self.on_it;
+        on_it.begin(view.positions.len());
+        let mut lies = |v: u32| {
+            on_it.holds(v)
+                || surface.distance(view.positions[v as usize]).abs() <= tolerance && on_it.mark(v)
+        };
+        self.around.marks.begin(view.pieces.count());
         self.around.marks.mark(seed);
         let mut region = vec![seed];
         let mut at = 0;
         while at < region.len() && region.len() < most {
             let piece = region[at];
             at += 1;
-            let pieces = self.view.pieces;
+            let pieces = view.pieces;
             for link in pieces.smooth_links(piece) {
                 let across = link.across(piece);
                 if self.around.open[across as usize]
                     && self.around.marks.mark(across)
-                    && self.view.fits(across, surface, sign, tolerance)
+                    && pieces.vertices.row(across).iter().all(|&v| lies(v))
+                    && view.faces_as(across, surface, sign, NORMALS_AGREE)
                 {
                     region.push(across);
                 }

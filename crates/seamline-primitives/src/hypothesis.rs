@@ -56,6 +56,13 @@ impl View<'_> {
         tolerance: f64,
         least_cos: f64,
     ) -> bool {
+        let lies = |&v: &u32| surface.distance(self.positions[v as usize]).abs() <= tolerance;
+        self.faces_as(piece, surface, sign, least_cos)
+            && self.pieces.vertices.row(piece).iter().all(lies)
+    }
+
+    /// Does the normal of a piece agree with the surface's at its faces' centroids?
+    pub fn faces_as(&self, piece: u32, surface: &Surface, sign: f64, least_cos: f64) -> bool {
         let normal = self.pieces.normals[piece as usize];
         let lean = self.pieces.leans[piece as usize];
         let least_cos = if lean > 0.0 {
@@ -72,13 +79,7 @@ impl View<'_> {
             let mut centroids = faces.iter().map(|&f| self.triangles.centroids[f as usize]);
             centroids.all(agrees)
         };
-        (normal == DVec3::ZERO || agree)
-            && self
-                .pieces
-                .vertices
-                .row(piece)
-                .iter()
-                .all(|&v| surface.distance(self.positions[v as usize]).abs() <= tolerance)
+        normal == DVec3::ZERO || agree
     }
 
     /// Greatest distance of pieces' faces, at their centroids, from the surface their vertices lie on.
@@ -244,7 +245,7 @@ const SCARCE: usize = 64;
 const MOST_LEVELLED: usize = 2000;
 
 /// Least cosine between a piece's normal and the surface's at its centroid.
-const NORMALS_AGREE: f64 = 0.85;
+pub(crate) const NORMALS_AGREE: f64 = 0.85;
 
 /// Is the fit over-determined across rows? Vertices along one ruling or one circle of revolution count once:
 /// any strip of any surface of revolution is an exact cone, and any two strips an exact torus.

@@ -1,6 +1,7 @@
 //! Least squares: the surface of a kind nearest to points, by Levenberg and Marquardt's method from a guess.
 
 use glam::DVec3;
+use wide::f64x4;
 
 use crate::freedom::{Cone, Cylinder, Frame, Freedom, Plane, Sphere, Torus};
 use crate::linear::solve;
@@ -18,7 +19,9 @@ pub(crate) struct Fit {
 pub(crate) struct Cloud {
     centre: DVec3,
     radius: f64,
-    points: Vec<DVec3>,
+    count: f64,
+    /// Four points each, and 1 for those that count: the last may have fewer.
+    fours: Vec<([f64x4; 3], f64x4)>,
 }
 
 impl Cloud {
@@ -28,10 +31,17 @@ impl Cloud {
         let centre = points.iter().sum::<DVec3>() / count;
         let squares: f64 = points.iter().map(|x| x.distance_squared(centre)).sum();
         let radius = (squares / count).sqrt();
+        let four = |four: &[DVec3]| {
+            let at = |i: usize| (*four.get(i).unwrap_or(&four[0]) - centre) / radius;
+            let axis = |axis: usize| f64x4::from([0, 1, 2, 3].map(|i| at(i)[axis]));
+            let counts = [0, 1, 2, 3].map(|i| if i < four.len() { 1.0 } else { 0.0 });
+            ([axis(0), axis(1), axis(2)], f64x4::from(counts))
+        };
         (radius > 0.0 && radius.is_finite()).then(|| Self {
             centre,
             radius,
-            points: points.iter().map(|&x| (x - centre) / radius).collect(),
+            count,
+            fours: points.chunks(4).map(four).collect(),
         })
     }
 }
@@ -42,7 +52,7 @@ impl Cloud {
 /// falling fast, and it is given up: nearly all time goes into fits that fail. `None` if a number left
 /// the finite.
 pub(crate) fn refine(guess: Surface, cloud: &Cloud, tolerance: f64) -> Option<Fit> {
-    descend(guess, cloud, tolerance, 0.7)
+    descend(guess, cloud, tolerance, 0.6)
 }
 
 /// As [`refine`], but does not give up while distances fall at all.
@@ -59,13 +69,12 @@ fn descend(guess: Surface, cloud: &Cloud, tolerance: f64, falls_to: f64) -> Opti
     if !finite(&surface) {
         return None;
     }
-    let points = &cloud.points;
     let (surface, rms) = match guess.kind {
-        Kind::Plane => goal.descend::<3, Plane>(surface, points),
-        Kind::Sphere => goal.descend::<4, Sphere>(surface, points),
-        Kind::Cylinder => goal.descend::<5, Cylinder>(surface, points),
-        Kind::Cone => goal.descend::<6, Cone>(surface, points),
-        Kind::Torus => goal.descend::<7, Torus>(surface, points),
+        Kind::Plane => goal.descend::<3, Plane>(surface, cloud),
+        Kind::Sphere => goal.descend::<4, Sphere>(surface, cloud),
+        Kind::Cylinder => goal.descend::<5, Cylinder>(surface, cloud),
+        Kind::Cone => goal.descend::<6, Cone>(surface, cloud),
+        Kind::Torus => goal.descend::<7, Torus>(surface, cloud),
     };
     Some(Fit {
         surface: moved(surface, -cloud.centre / cloud.radius, 1.0 / cloud.radius),
@@ -88,12 +97,12 @@ impl Goal {
     fn descend<const N: usize, F: Freedom<N>>(
         &self,
         mut surface: Surface,
-        points: &[DVec3],
+        cloud: &Cloud,
     ) -> (Surface, f64) {
         let Self { near, falls_to } = *self;
-        let count = points.len() as f64;
+        let count = cloud.count;
         let mut frame = Frame::of(&surface);
-        let mut at = Equations::at(F::at(&surface), &frame, points);
+        let mut at = Equations::at(F::at(&surface), &frame, cloud);
         let mut lambda = 1e-3;
         let mut before = [f64::INFINITY; 2];
         for _ in 0..MOST_STEPS {
@@ -114,7 +123,7 @@ impl Goal {
                     break;
                 }
                 let next = frame.stepped(&surface, F::step(step));
-                let there = Equations::at(F::at(&next), &Frame::of(&next), points);
+                let there = Equations::at(F::at(&next), &Frame::of(&next), cloud);
                 if there.squares < at.squares && finite(&next) {
                     surface = next;
                     frame = Frame::of(&surface);
@@ -162,23 +171,27 @@ struct Equations<const N: usize> {
 }
 
 impl<const N: usize> Equations<N> {
-    fn at<F: Freedom<N>>(surface: F, frame: &Frame, points: &[DVec3]) -> Self {
-        let mut of = Self {
-            squares: 0.0,
-            matrix: [[0.0; N]; N],
-            right: [0.0; N],
-        };
-        for &x in points {
-            let (f, row) = surface.distance(frame.seen(x));
-            of.squares += f * f;
+    fn at<F: Freedom<N>>(surface: F, frame: &Frame, cloud: &Cloud) -> Self {
+        let mut squares = f64x4::ZERO;
+        let mut matrix = [[f64x4::ZERO; N]; N];
+        let mut right = [f64x4::ZERO; N];
+        for &(points, counts) in &cloud.fours {
+            let (f, row) = surface.distances(frame.seen(points));
+            let f = f * counts;
+            squares += f * f;
             for i in 0..N {
-                of.right[i] -= row[i] * f;
+                right[i] -= row[i] * f;
+                let counted = row[i] * counts;
                 for j in 0..=i {
-                    of.matrix[i][j] += row[i] * row[j];
+                    matrix[i][j] += counted * row[j];
                 }
             }
         }
-        of
+        Self {
+            squares: squares.reduce_add(),
+            matrix: matrix.map(|row| row.map(f64x4::reduce_add)),
+            right: right.map(f64x4::reduce_add),
+        }
     }
 
     fn damped(&self, lambda: f64) -> [[f64; N]; N] {

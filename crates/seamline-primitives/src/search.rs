@@ -3,7 +3,7 @@
 
 use rayon::prelude::*;
 
-use crate::around::Around;
+use crate::around::{Around, Marks};
 use crate::bends;
 use crate::hypothesis::{Hypothesis, View};
 use crate::grow::Soil;
@@ -47,6 +47,7 @@ pub(crate) fn search(view: View, open: &[bool], rung: usize, tolerance: f64) -> 
         rung,
         tolerance,
         around: Around::new(view, open),
+        on_it: Marks::default(),
     };
     let mut lanes: Vec<Soil> = Vec::new();
     let mut tried = Tried::new();

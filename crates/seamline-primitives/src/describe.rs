@@ -1,6 +1,7 @@
 //! What is told of patches: the surface of each, fitted to all its vertices once more.
 
 use glam::DVec3;
+use rayon::prelude::*;
 
 use crate::Fitted;
 use crate::hypothesis::{Hypothesis, View};
@@ -42,7 +43,7 @@ pub(crate) fn surfaces(
         // Creases cut free forms, and number them beyond the parts.
         None => None,
     };
-    part_of.iter().map(|&part| of_part(part)).collect()
+    part_of.par_iter().map(|&part| of_part(part)).collect()
 }
 
 fn plane(view: View, piece: u32) -> Fitted {

@@ -52,7 +52,7 @@ impl Cloud {
 /// falling fast, and it is given up: nearly all time goes into fits that fail. `None` if a number left
 /// the finite.
 pub(crate) fn refine(guess: Surface, cloud: &Cloud, tolerance: f64) -> Option<Fit> {
-    descend(guess, cloud, tolerance, 0.6)
+    descend(guess, cloud, tolerance, 0.7)
 }
 
 /// As [`refine`], but does not give up while distances fall at all.

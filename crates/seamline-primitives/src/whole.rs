@@ -1,6 +1,7 @@
 //! Parts that were taken for free forms, and are one surface as a whole.
 
 use glam::DVec3;
+use rayon::prelude::*;
 
 use crate::guess::{cone_about, guesses};
 use crate::hypothesis::{Hypothesis, View};
@@ -24,17 +25,20 @@ pub(crate) fn accept_wholes(
     parts: &Parts,
     tolerance: f64,
 ) -> bool {
-    let before = regions.all.len();
-    for (part, pieces) in parts.pieces().into_iter().enumerate() {
-        if parts.forms[part] == Form::Free
-            && let Some(found) = whole(view, regions, &pieces, tolerance)
-            && found.strong
-            && found.exact
-        {
-            regions.accept(found);
-        }
+    let pieces_of = parts.pieces();
+    let seen: &Regions = regions;
+    let found: Vec<Hypothesis> = pieces_of
+        .par_iter()
+        .zip(&parts.forms)
+        .filter(|(_, form)| **form == Form::Free)
+        .filter_map(|(pieces, _)| whole(view, seen, pieces, tolerance))
+        .filter(|found| found.strong && found.exact)
+        .collect();
+    let any = !found.is_empty();
+    for whole in found {
+        regions.accept(whole);
     }
-    regions.all.len() > before
+    any
 }
 
 /// The surface of a part that was taken for a free form, if one fits all of it: a chamfer is one strip of a cone,

@@ -6,7 +6,7 @@ use crate::refine::{Cloud, refine};
 use crate::surface::Surface;
 
 /// Most vertices a fit looks at; more do not make it better.
-pub(crate) const MOST_POINTS: usize = 200;
+pub(crate) const MOST_POINTS: usize = 400;
 /// Most times a surface is fitted again as it grows.
 const MOST_ROUNDS: usize = 40;
 /// A grown surface is fitted once more, to this share of the tolerance.

@@ -53,9 +53,13 @@ impl<'s, 'a> Scout<'s, 'a> {
 
     /// The best hypothesis of each kind that holds the seed.
     pub fn hypotheses(mut self, discs: bool) -> About {
-        let midst = if discs { self.on_discs() } else { Some(Vec::new()) };
+        let midst = if discs {
+            self.on_discs()
+        } else {
+            Some(Vec::new())
+        };
         if midst.is_some() {
-            self.on_rings();
+            self.on_neighbourhoods();
             self.on_what_came_near();
         }
         About {
@@ -65,75 +69,71 @@ impl<'s, 'a> Scout<'s, 'a> {
         }
     }
 
-    /// Tries triples, a strip, the stars of the seed's vertices, pairs of them, and rings.
-    fn on_rings(&mut self) {
-        let view = self.soil.view;
-        let seed = self.seed;
-        // At loose tolerances few pieces are on any surface.
-        let triples = if self.soil.rung < 2 {
-            self.soil.around.triples(seed)
-        } else {
-            Vec::new()
-        };
-        for triple in triples {
-            let mut look = Look::at(view, &triple);
-            for kind in [Kind::Cylinder, Kind::Cone] {
-                if !self.settled(kind) {
-                    self.attempt(kind, &mut look);
-                }
+    /// Tries the small neighbourhoods. At the loosest tolerance nearly all of them are on some surface, and only large
+    /// surfaces are believed: triples, pairs of stars and rings have no more to tell there.
+    fn on_neighbourhoods(&mut self) {
+        let loosest = self.soil.rung == 2;
+        if !loosest {
+            for triple in self.soil.around.triples(self.seed) {
+                self.attempt_all([Kind::Cylinder, Kind::Cone], &triple);
             }
         }
-        let strip = self.soil.around.strip(seed);
-        let mut look = Look::at(view, &strip);
-        for kind in [Kind::Cylinder, Kind::Cone] {
-            if !self.settled(kind) {
-                self.attempt(kind, &mut look);
-            }
+        let strip = self.soil.around.strip(self.seed);
+        self.attempt_all([Kind::Cylinder, Kind::Cone], &strip);
+        let stars = self.soil.around.stars(self.seed);
+        let spoke = self.on_stars(&stars);
+        if !loosest {
+            self.on_pairs(&stars, &spoke);
+            self.on_rings(&stars, spoke);
         }
-        let stars = self.soil.around.stars(seed);
+    }
+
+    /// Tries the pieces round each vertex of the seed. Gives, for each kind, the stars that had enough vertices.
+    fn on_stars(&mut self, stars: &[Vec<u32>]) -> [Vec<usize>; 4] {
         let mut spoke: [Vec<usize>; 4] = Default::default();
         for (i, star) in stars.iter().enumerate() {
-            let mut look = Look::at(view, star);
+            let mut look = Look::at(self.soil.view, star);
             for kind in Kind::CURVED {
                 if !self.settled(kind) && self.attempt(kind, &mut look) {
                     spoke[kind as usize - 1].push(i);
                 }
             }
         }
+        spoke
+    }
+
+    /// Tries each two stars together, for kinds that neither could tell of.
+    fn on_pairs(&mut self, stars: &[Vec<u32>], spoke: &[Vec<usize>; 4]) {
         for (i, one) in stars.iter().enumerate() {
             for (j, other) in stars[..i].iter().enumerate() {
-                let refuted = |kind: Kind| {
+                let open = |&kind: &Kind| {
                     let spoke = &spoke[kind as usize - 1];
-                    spoke.contains(&i) || spoke.contains(&j)
+                    !spoke.contains(&i) && !spoke.contains(&j) && !self.settled(kind)
                 };
-                let kinds = [Kind::Cone, Kind::Torus].into_iter();
-                let mut left = kinds.filter(|&k| !refuted(k)).peekable();
-                if left.peek().is_none() {
-                    continue;
-                }
-                let mut pair = one.clone();
-                pair.extend(other.iter().filter(|p| !one.contains(p)));
-                let mut look = Look::at(view, &pair);
-                for kind in left {
-                    if !self.settled(kind) {
-                        self.attempt(kind, &mut look);
-                    }
+                let kinds = [Kind::Cone, Kind::Torus].into_iter().filter(open);
+                let kinds: Vec<Kind> = kinds.collect();
+                if !kinds.is_empty() {
+                    let mut pair = one.clone();
+                    pair.extend(other.iter().filter(|p| !one.contains(p)));
+                    self.attempt_all(kinds, &pair);
                 }
             }
         }
+    }
+
+    /// Tries the ring about the seed, and two.
+    fn on_rings(&mut self, stars: &[Vec<u32>], mut spoke: [Vec<usize>; 4]) {
         for rings in [1, 2] {
-            let ring = self.soil.around.rings(seed, rings);
-            let mut look = Look::at(view, &ring);
+            let ring = self.soil.around.rings(self.seed, rings);
+            let mut look = Look::at(self.soil.view, &ring);
             let holds = |star: &[u32]| star.iter().all(|p| ring.contains(p));
             for kind in Kind::CURVED {
+                let spoke = &mut spoke[kind as usize - 1];
                 // What does not fit a part does not fit the whole.
-                let refuted = spoke[kind as usize - 1].iter().any(|&i| holds(&stars[i]));
-                if !refuted
-                    && !self.settled(kind)
-                    && self.attempt(kind, &mut look)
-                {
+                let refuted = spoke.iter().any(|&i| holds(&stars[i]));
+                if !refuted && !self.settled(kind) && self.attempt(kind, &mut look) {
                     // Nor does the next ring.
-                    spoke[kind as usize - 1].extend(0..stars.len().min(1));
+                    spoke.extend(0..stars.len().min(1));
                 }
             }
         }
@@ -188,6 +188,16 @@ impl<'s, 'a> Scout<'s, 'a> {
         self.best[kind as usize - 1]
             .as_ref()
             .is_some_and(|h| h.strong && h.pieces.len() >= COVERS)
+    }
+
+    /// Fits the kinds of which there is more to be had.
+    fn attempt_all(&mut self, kinds: impl IntoIterator<Item = Kind>, pieces: &[u32]) {
+        let mut look = Look::at(self.soil.view, pieces);
+        for kind in kinds {
+            if !self.settled(kind) {
+                self.attempt(kind, &mut look);
+            }
+        }
     }
 
     /// Fits a kind to a neighbourhood and lets it grow. False if it has too few vertices for that.

@@ -12,7 +12,7 @@ use crate::pieces::Triangles;
 
 /// A part of fewer faces is left whole.
 const FEWEST_FACES: usize = 20;
-/// A piece of fewer faces is no patch.
+/// A piece of fewer faces is no patch: a triangle alone lies between the ends of two chains.
 const LEAST_FACES: usize = 2;
 /// Two pieces whose common border turns by less on average are one; and by less than so many medians.
 const BORDER_DEG: f64 = 3.0;

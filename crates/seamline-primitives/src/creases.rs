@@ -12,8 +12,9 @@ use crate::pieces::Triangles;
 
 /// A part of fewer faces is left whole.
 const FEWEST_FACES: usize = 20;
-/// A piece of fewer faces is no patch: a triangle alone lies between the ends of two chains.
-const LEAST_FACES: usize = 2;
+/// A share of the part's area, and a number of faces, below which a piece of it is no patch.
+const LEAST_AREA_SHARE: f64 = 0.02;
+const LEAST_FACES: usize = 6;
 /// Two pieces whose common border turns by less on average are one; and by less than so many medians.
 const BORDER_DEG: f64 = 3.0;
 const BORDER_MEDIANS: f64 = 2.0;
@@ -60,6 +61,7 @@ pub(crate) fn split(
         let part = Part {
             positions,
             topology,
+            triangles,
             edges: &edges,
             turns: &turns,
             median,
@@ -77,6 +79,7 @@ pub(crate) fn split(
 pub(crate) struct Part<'a> {
     pub positions: &'a [DVec3],
     pub topology: &'a Topology,
+    pub triangles: &'a Triangles,
     /// Its inner edges, with their faces.
     pub edges: &'a [(u32, [u32; 2])],
     /// Turn of each inner edge in degrees.
@@ -132,13 +135,16 @@ impl Part<'_> {
     ) {
         let least_turn = BORDER_DEG.max(BORDER_MEDIANS * self.median);
         loop {
-            let mut sizes: BTreeMap<u32, usize> = BTreeMap::new();
-            for i in 0..faces.len() as u32 {
-                *sizes.entry(sets.first(i)).or_default() += 1;
+            let mut sizes: BTreeMap<u32, (f64, usize)> = BTreeMap::new();
+            for (i, &face) in faces.iter().enumerate() {
+                let (area, count) = sizes.entry(sets.first(i as u32)).or_default();
+                *area += self.triangles.areas[face as usize];
+                *count += 1;
             }
             if sizes.len() < 2 {
                 return;
             }
+            let whole: f64 = sizes.values().map(|(area, _)| area).sum();
             let mut borders: BTreeMap<[u32; 2], (f64, f64)> = BTreeMap::new();
             for &(edge, pair) in self.edges {
                 let [a, b] = pair.map(|face| sets.first(row(face)));
@@ -152,7 +158,10 @@ impl Part<'_> {
                     *turn += p.distance(q) * self.turns[&edge].max(least);
                 }
             }
-            let small = |set: &u32| sizes[set] < LEAST_FACES;
+            let small = |set: &u32| {
+                let (area, count) = sizes[set];
+                area < LEAST_AREA_SHARE * whole || count < LEAST_FACES
+            };
             let weakest = borders
                 .into_iter()
                 .map(|(pair, (length, turn))| (pair, turn / length.max(f64::MIN_POSITIVE)))

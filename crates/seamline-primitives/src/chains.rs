@@ -26,8 +26,9 @@ const FALSE_ALARMS_IF_SMOOTH: f64 = 1e-6;
 const MOST_TURN_DEG: f64 = 30.0;
 /// A row beside a chain is as straight if it turns by so many degrees more at most.
 const AS_STRAIGHT_DEG: f64 = 0.2;
-/// Share of the vertices beside a chain in such rows from which the chain is one row of many. Borders of faces have up to
-/// .5, rows of grids .9 and more, rows of tubes about .5.
+/// Share of the vertices beside a chain in such rows from which the chain is one row of many. Rows of grids have .9 and more,
+/// rows of swept tubes and many a border about .5, so that the surface has to turn at these borders. With 1 degree and .6
+/// one swept handle falls apart and two shells gain: ARI .0024 less over 132 meshes.
 const IN_ROWS: f64 = 0.5;
 /// Degrees up to which two turns are one.
 const SAME_DEG: f64 = 1e-3;

@@ -63,14 +63,14 @@ fn agrees_at_least(floors: [(&str, f64, f64); 3], settings: &[&str]) {
     }
 }
 
-/// The floors are what was measured less half a hundredth. `loft_body` in its coarse tessellation costs .03 of the first
-/// ARI: creases are not looked for among steps as large as they are.
+/// The floors are what was measured less half a hundredth at most. False rings across the neck of the fine `bottle` cost .01
+/// of the boundary F1 of fine meshes.
 #[test]
 fn cad_finds_the_patches_of_parts_by_the_surfaces_their_vertices_lie_on() {
     let floors = [
-        ("coarse", 0.950, 0.969),
+        ("coarse", 0.994, 0.993),
         ("fine", 0.989, 0.987),
-        ("uniform", 0.992, 0.990),
+        ("uniform", 0.995, 0.995),
     ];
     agrees_at_least(floors, &[]);
 }

@@ -1,32 +1,17 @@
-//! Creases inside a free form: found where the surface turns, completed to closed borders by cheapest paths.
+//! Creases inside a free form: the borders of its faces, where the triangles and the turn of the surface tell of them.
 
-use std::cmp::Reverse;
-use std::collections::{BTreeMap, BinaryHeap, HashMap, HashSet};
+use std::collections::{BTreeMap, HashMap, HashSet};
 
 use glam::DVec3;
 use seamline_mesh::{Sets, Topology};
 
+use crate::chains::Chains;
 use crate::crease_angles::CreaseAngles;
 use crate::parts::Form;
 use crate::pieces::Triangles;
 
 /// A part of fewer faces is left whole.
 const FEWEST_FACES: usize = 20;
-/// Median turn, in degrees, above which the steps of the tessellation are as large as creases, and none are looked
-/// for: of 138 coarse meshes those of the bench lose .012 of their ARI by it (one loft), the other two sets
-/// gain .028 and .030.
-const COARSE_DEG: f64 = 2.0;
-/// A crease turns by this, and by so many times the median.
-const CREASE_DEG: f64 = 10.0;
-const CREASE_MEDIANS: f64 = 6.0;
-/// From its ends it goes on where it turns by this share of that, within so many degrees of straight on.
-const GOES_ON: f64 = 0.5;
-const GOES_ON_WITHIN_DEG: f64 = 45.0;
-/// Fewer edges than this are no crease.
-const FEWEST_EDGES: usize = 6;
-/// A path turns by at most this at a vertex, and costs at most this.
-const PATH_TURN_DEG: f64 = 60.0;
-const MOST_COST: f64 = 300.0;
 /// A share of the part's area, and a number of faces, below which a piece of it is no patch.
 const LEAST_AREA_SHARE: f64 = 0.02;
 const LEAST_FACES: usize = 6;
@@ -34,12 +19,16 @@ const LEAST_FACES: usize = 6;
 const BORDER_DEG: f64 = 3.0;
 const BORDER_MEDIANS: f64 = 2.0;
 
+/// What sums of lengths round off at most, as a share.
+const ROUNDING: f64 = 1e-9;
+
 /// Splits free forms along their creases. New parts get numbers after the present ones.
 pub(crate) fn split(
     positions: &[DVec3],
     topology: &Topology,
     triangles: &Triangles,
     forms: &[Form],
+    noise: f64,
     of_face: &mut [u32],
 ) {
     let mut inner: BTreeMap<u32, Vec<(u32, [u32; 2])>> = BTreeMap::new();
@@ -69,20 +58,15 @@ pub(crate) fn split(
         let mut sorted: Vec<f64> = turns.values().copied().collect();
         sorted.sort_unstable_by(f64::total_cmp);
         let median = sorted[sorted.len() / 2];
-        if median > COARSE_DEG {
-            continue;
-        }
         let part = Part {
             positions,
             topology,
             triangles,
             edges: &edges,
             turns: &turns,
-            threshold: CREASE_DEG.max(CREASE_MEDIANS * median),
             median,
         };
-        let found = part.pieces();
-        for (face, piece) in found {
+        for (face, piece) in part.pieces(noise) {
             if piece > 0 {
                 of_face[face as usize] = next + piece - 1;
             }
@@ -92,185 +76,40 @@ pub(crate) fn split(
 }
 
 /// One free form.
-struct Part<'a> {
-    positions: &'a [DVec3],
-    topology: &'a Topology,
-    triangles: &'a Triangles,
+pub(crate) struct Part<'a> {
+    pub positions: &'a [DVec3],
+    pub topology: &'a Topology,
+    pub triangles: &'a Triangles,
     /// Its inner edges, with their faces.
-    edges: &'a [(u32, [u32; 2])],
+    pub edges: &'a [(u32, [u32; 2])],
     /// Turn of each inner edge in degrees.
-    turns: &'a HashMap<u32, f64>,
-    /// Turn of a crease in degrees.
-    threshold: f64,
+    pub turns: &'a HashMap<u32, f64>,
     /// Median turn in degrees.
-    median: f64,
+    pub median: f64,
 }
 
 impl Part<'_> {
     /// The piece of each face, numbered from 0.
-    fn pieces(&self) -> Vec<(u32, u32)> {
-        let mut creased: HashSet<u32> = self
-            .edges
-            .iter()
-            .map(|&(edge, _)| edge)
-            .filter(|edge| self.turns[edge] >= self.threshold)
-            .collect();
+    fn pieces(&self, noise: f64) -> Vec<(u32, u32)> {
+        let mut creased = HashSet::new();
+        let mut though_smooth = HashSet::new();
+        for curve in Chains::of(self.positions, self.topology, self.edges).curves() {
+            if curve.though_smooth {
+                though_smooth.extend(curve.edges.iter().copied());
+            }
+            creased.extend(curve.edges);
+        }
+        if noise > 0.0 {
+            creased.extend(self.creased_by_turn());
+        }
         if creased.is_empty() {
             return Vec::new();
         }
-        self.extend(&mut creased);
-        self.drop_short(&mut creased);
-        self.complete(&mut creased);
-        self.flood(&creased)
+        self.flood(&creased, &though_smooth)
     }
 
-    fn inner_edges_at(&self, vertex: u32) -> impl Iterator<Item = u32> {
-        let edges = self.topology.vertex_edges.row(vertex as usize).iter();
-        edges.copied().filter(|edge| self.turns.contains_key(edge))
-    }
-
-    /// Does a vertex lie on the part's border?
-    fn on_border(&self, vertex: u32) -> bool {
-        self.inner_edges_at(vertex).count() < self.topology.vertex_edges.row(vertex as usize).len()
-    }
-
-    /// Degrees between going along `from` towards `vertex` and going on along `to`.
-    fn turning(&self, from: u32, vertex: u32, to: u32) -> f64 {
-        let at = |v: u32| self.positions[v as usize];
-        let before = at(vertex) - at(self.topology.far_end(from, vertex));
-        let after = at(self.topology.far_end(to, vertex)) - at(vertex);
-        before.angle_between(after).to_degrees()
-    }
-
-    /// Ends of creases: vertices of one creased edge that are not on the border.
-    fn open_ends(&self, creased: &HashSet<u32>) -> Vec<(u32, u32)> {
-        let mut at: BTreeMap<u32, Vec<u32>> = BTreeMap::new();
-        for &edge in creased {
-            for vertex in self.topology.edge_vertices[edge as usize] {
-                at.entry(vertex).or_default().push(edge);
-            }
-        }
-        at.into_iter()
-            .filter(|(vertex, edges)| edges.len() == 1 && !self.on_border(*vertex))
-            .map(|(vertex, edges)| (vertex, edges[0]))
-            .collect()
-    }
-
-    /// Lets creases go on from their ends while the surface still turns.
-    fn extend(&self, creased: &mut HashSet<u32>) {
-        for (mut vertex, mut edge) in self.open_ends(creased) {
-            while let Some(next) = self
-                .inner_edges_at(vertex)
-                .filter(|next| self.turns[next] >= GOES_ON * self.threshold)
-                .filter(|&next| self.turning(edge, vertex, next) < GOES_ON_WITHIN_DEG)
-                .max_by(|a, b| self.turns[a].total_cmp(&self.turns[b]))
-            {
-                if !creased.insert(next) {
-                    break;
-                }
-                vertex = self.topology.far_end(next, vertex);
-                edge = next;
-                let meets = self
-                    .inner_edges_at(vertex)
-                    .any(|e| e != next && creased.contains(&e));
-                if meets || self.on_border(vertex) {
-                    break;
-                }
-            }
-        }
-    }
-
-    fn drop_short(&self, creased: &mut HashSet<u32>) {
-        let edges: Vec<u32> = {
-            let mut edges: Vec<u32> = creased.iter().copied().collect();
-            edges.sort_unstable();
-            edges
-        };
-        let mut first_at: HashMap<u32, u32> = HashMap::new();
-        let mut sets = Sets::new(edges.len());
-        for (i, &edge) in edges.iter().enumerate() {
-            for vertex in self.topology.edge_vertices[edge as usize] {
-                let first = *first_at.entry(vertex).or_insert(i as u32);
-                sets.unite(first, i as u32);
-            }
-        }
-        let mut sizes: HashMap<u32, usize> = HashMap::new();
-        for i in 0..edges.len() as u32 {
-            *sizes.entry(sets.first(i)).or_default() += 1;
-        }
-        for (i, edge) in edges.iter().enumerate() {
-            if sizes[&sets.first(i as u32)] < FEWEST_EDGES {
-                creased.remove(edge);
-            }
-        }
-    }
-
-    /// Joins each open end to the border or to another crease by the cheapest path.
-    fn complete(&self, creased: &mut HashSet<u32>) {
-        for (vertex, edge) in self.open_ends(creased) {
-            if let Some(path) = self.cheapest_path(vertex, edge, creased) {
-                creased.extend(path);
-            }
-        }
-    }
-
-    fn cheapest_path(&self, start: u32, from: u32, creased: &HashSet<u32>) -> Option<Vec<u32>> {
-        let own = self.crease_vertices(from, creased);
-        let goal = |vertex: u32| {
-            let meets = || self.inner_edges_at(vertex).any(|e| creased.contains(&e));
-            self.on_border(vertex) || (!own.contains(&vertex) && meets())
-        };
-        // Costs in thousandths, so that they order; a state is an edge and the vertex it leads to.
-        let mut heap = BinaryHeap::from([(Reverse(0u64), from, start)]);
-        let mut came: HashMap<(u32, u32), (u64, Option<(u32, u32)>)> =
-            HashMap::from([((from, start), (0, None))]);
-        while let Some((Reverse(cost), edge, vertex)) = heap.pop() {
-            if came[&(edge, vertex)].0 < cost {
-                continue;
-            }
-            if vertex != start && goal(vertex) {
-                let mut path = Vec::new();
-                let mut at = (edge, vertex);
-                while let Some(before) = came[&at].1 {
-                    path.push(at.0);
-                    at = before;
-                }
-                return Some(path);
-            }
-            for next in self.inner_edges_at(vertex).filter(|&e| e != edge) {
-                let turning = self.turning(edge, vertex, next);
-                if turning > PATH_TURN_DEG {
-                    continue;
-                }
-                let step = (10.0 - 18.0 * self.turns[&next] / self.threshold).max(1.0);
-                let total = cost + ((step + 2.0 * turning) * 1000.0) as u64;
-                let to = (next, self.topology.far_end(next, vertex));
-                if total <= (MOST_COST * 1000.0) as u64
-                    && came.get(&to).is_none_or(|&(known, _)| total < known)
-                {
-                    came.insert(to, (total, Some((edge, vertex))));
-                    heap.push((Reverse(total), to.0, to.1));
-                }
-            }
-        }
-        None
-    }
-
-    /// Vertices of the crease that holds an edge.
-    fn crease_vertices(&self, edge: u32, creased: &HashSet<u32>) -> HashSet<u32> {
-        let mut vertices = HashSet::new();
-        let mut open: Vec<u32> = self.topology.edge_vertices[edge as usize].to_vec();
-        while let Some(vertex) = open.pop() {
-            if vertices.insert(vertex) {
-                let on = self.inner_edges_at(vertex).filter(|e| creased.contains(e));
-                open.extend(on.map(|e| self.topology.far_end(e, vertex)));
-            }
-        }
-        vertices
-    }
-
-    /// Pieces between the creases, those too small or too alike merged.
-    fn flood(&self, creased: &HashSet<u32>) -> Vec<(u32, u32)> {
+    /// Pieces between the creases, those too alike united.
+    fn flood(&self, creased: &HashSet<u32>, though_smooth: &HashSet<u32>) -> Vec<(u32, u32)> {
         let mut faces: Vec<u32> = self.edges.iter().flat_map(|&(_, faces)| faces).collect();
         faces.sort_unstable();
         faces.dedup();
@@ -281,24 +120,31 @@ impl Part<'_> {
                 sets.unite(row(a), row(b));
             }
         }
-        self.merge(&faces, &mut sets, row);
+        self.merge(&faces, &mut sets, row, though_smooth);
         let (numbers, _) = sets.numbered();
         faces.into_iter().zip(numbers).collect()
     }
 
-    fn merge(&self, faces: &[u32], sets: &mut Sets, row: impl Fn(u32) -> u32) {
+    /// Unites pieces over borders that turn too little, weakest first. Borders `though_smooth` stand.
+    fn merge(
+        &self,
+        faces: &[u32],
+        sets: &mut Sets,
+        row: impl Fn(u32) -> u32,
+        though_smooth: &HashSet<u32>,
+    ) {
         let least_turn = BORDER_DEG.max(BORDER_MEDIANS * self.median);
         loop {
-            let mut areas: BTreeMap<u32, (f64, usize)> = BTreeMap::new();
+            let mut sizes: BTreeMap<u32, (f64, usize)> = BTreeMap::new();
             for (i, &face) in faces.iter().enumerate() {
-                let (area, count) = areas.entry(sets.first(i as u32)).or_default();
+                let (area, count) = sizes.entry(sets.first(i as u32)).or_default();
                 *area += self.triangles.areas[face as usize];
                 *count += 1;
             }
-            if areas.len() < 2 {
+            if sizes.len() < 2 {
                 return;
             }
-            let whole: f64 = areas.values().map(|(area, _)| area).sum();
+            let whole: f64 = sizes.values().map(|(area, _)| area).sum();
             let mut borders: BTreeMap<[u32; 2], (f64, f64)> = BTreeMap::new();
             for &(edge, pair) in self.edges {
                 let [a, b] = pair.map(|face| sets.first(row(face)));
@@ -307,17 +153,21 @@ impl Part<'_> {
                         .map(|v| self.positions[v as usize]);
                     let (length, turn) = borders.entry([a.min(b), a.max(b)]).or_default();
                     *length += p.distance(q);
-                    *turn += p.distance(q) * self.turns[&edge];
+                    let stands = though_smooth.contains(&edge);
+                    let least = if stands { least_turn } else { 0.0 };
+                    *turn += p.distance(q) * self.turns[&edge].max(least);
                 }
             }
             let small = |set: &u32| {
-                let (area, count) = areas[set];
+                let (area, count) = sizes[set];
                 area < LEAST_AREA_SHARE * whole || count < LEAST_FACES
             };
             let weakest = borders
                 .into_iter()
                 .map(|(pair, (length, turn))| (pair, turn / length.max(f64::MIN_POSITIVE)))
-                .filter(|(pair, turn)| *turn < least_turn || pair.iter().any(small))
+                .filter(|(pair, turn)| {
+                    *turn < (1.0 - ROUNDING) * least_turn || pair.iter().any(small)
+                })
                 .min_by(|a, b| a.1.total_cmp(&b.1));
             let Some(([a, b], _)) = weakest else {
                 return;

@@ -13,8 +13,9 @@
 //!    (`absorb`).
 //! 5. `trust`: a surface on which its vertices lie exactly is believed; one they come near only where it ends
 //!    as surfaces do. What is left is one surface as a whole (`whole`), or none.
-//! 6. `parts`: what no surface explains is united to free forms, and these are cut at their creases (`creases`),
-//!    where the surface itself turns and not the tessellation only (`crease_angles`).
+//! 6. `parts`: what no surface explains is united to free forms, and these are cut (`creases`) along chains of edges that
+//!    go straighter on than chance lets them (`chains`, `fans`), where the surface itself turns and not the tessellation
+//!    only (`crease_angles`), or where nothing else beside them is as straight. In noise, along paths (`crease_paths`).
 //! 7. `describe`: each surface is fitted once more to all its vertices, and what was designed equal comes out equal
 //!    (`snap`).
 //!
@@ -32,11 +33,14 @@ mod absorb;
 mod around;
 mod bends;
 mod certain;
+mod chains;
 mod climb;
 mod crease_angles;
+mod crease_paths;
 mod creases;
 mod describe;
 mod eigen;
+mod fans;
 mod freedom;
 mod grow;
 mod guess;
@@ -226,7 +230,14 @@ fn look(scaled: &[DVec3], topology: &Topology, precision: f64, noise: f64) -> Fo
         .iter()
         .map(|&p| parts.of_piece[p as usize])
         .collect();
-    creases::split(scaled, topology, &triangles, &parts.forms, &mut of_face);
+    creases::split(
+        scaled,
+        topology,
+        &triangles,
+        &parts.forms,
+        noise,
+        &mut of_face,
+    );
     let (of_face, part_of) = connected(topology, &of_face);
     let mut surfaces = describe::surfaces(view, &regions, &parts, &part_of, ladder[0]);
     let points = patch_points(scaled, topology, &of_face, surfaces.len());

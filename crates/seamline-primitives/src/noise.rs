@@ -14,11 +14,15 @@ use crate::Fitted;
 const FIRST_SHARE: f64 = 0.12;
 /// How much larger the next share is.
 const STEP: f64 = 1.15;
+/// Share of the edges that is not looked at: if all of them are flat, there is no knee.
+const LAST_SHARE: f64 = 0.9;
 /// Half as many values are half as large, or more where a bell curve has reached its standard deviation: the
 /// logarithm of the ratio of ranks over that of the values there.
 const KNEE: f64 = 0.8;
 /// The standard deviation over the geometric mean of the values between which the knee is.
 const DEVIATION: f64 = 1.1;
+/// Standard deviations within which half of a bell curve is.
+const HALF_WITHIN: f64 = 0.67;
 /// Least cosine between the normals of two faces that may be in one plane but for noise: 45 degrees.
 const ONE_PLANE: f64 = 0.7;
 
@@ -26,7 +30,8 @@ const ONE_PLANE: f64 = 0.7;
 const SOME_EVIDENCE: u32 = 20;
 
 /// Standard deviation of each coordinate of the vertices, in the unit of `positions`. Too large on a mesh without
-/// flat pairs of triangles, where it is how far these are off a plane by design. `None` for fewer than a few edges.
+/// flat pairs of triangles, where it is how far these are off a plane by design. `None` where no two faces are near
+/// one plane without being in it exactly.
 pub(crate) fn standard_deviation(positions: &[DVec3], topology: &Topology) -> Option<f64> {
     let mut away: Vec<f64> = (0..topology.edge_faces.len())
         .filter_map(|edge| off_one_plane(positions, topology, edge))
@@ -34,19 +39,18 @@ pub(crate) fn standard_deviation(positions: &[DVec3], topology: &Topology) -> Op
     away.sort_unstable_by(f64::total_cmp);
     let at = |share: f64| away.get((share * away.len() as f64) as usize).copied();
     let mut share = FIRST_SHARE;
-    while share < 0.9 {
+    while share < LAST_SHARE {
         let [half, whole] = [at(share / 2.0)?, at(share)?];
         if whole > half && 2f64.ln() / (whole / half).ln() < KNEE {
             return Some(DEVIATION * (half * whole).sqrt());
         }
         share *= STEP;
     }
-    // Half of a bell curve is within .67 deviations.
-    Some(at(0.5)? / 0.67)
+    Some(at(0.5)? / HALF_WITHIN)
 }
 
 /// How far the corners of the two faces of an edge are off one plane, in units of their noise: their volume over the
-/// length of its gradient.
+/// length of its gradient. `None` where they are no such pair, have no volume or no area.
 fn off_one_plane(positions: &[DVec3], topology: &Topology, edge: usize) -> Option<f64> {
     let faces = topology.face_pair(edge)?;
     let ends = topology.edge_vertices[edge];
@@ -69,7 +73,7 @@ fn off_one_plane(positions: &[DVec3], topology: &Topology, edge: usize) -> Optio
     (away > 0.0).then_some(away)
 }
 
-/// The median residual of surfaces of some evidence.
+/// The residual of surfaces of some evidence: their median, each counted by its evidence. `None` if there are none.
 pub(crate) fn residual_of_most(surfaces: &[Option<Fitted>]) -> Option<f64> {
     let mut residuals: Vec<(f64, f64)> = surfaces
         .iter()

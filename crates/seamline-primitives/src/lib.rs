@@ -246,12 +246,7 @@ fn look(ground: Ground) -> Found {
         of_face,
         surfaces: describe::surfaces(view, &regions, &parts, &part_of, ladder[0]),
     };
-    let points = patch_points(
-        positions,
-        topology,
-        &patches.of_face,
-        patches.surfaces.len(),
-    );
+    let points = patches.points(positions, topology);
     snap::snap(&mut patches.surfaces, &points, precision);
     Found {
         of_face: patches.of_face,
@@ -259,31 +254,6 @@ fn look(ground: Ground) -> Found {
         exact_share,
         noise: ground.noise,
     }
-}
-
-/// Vertices of each patch, a few of many.
-fn patch_points(
-    positions: &[DVec3],
-    topology: &Topology,
-    of_face: &[u32],
-    count: usize,
-) -> Vec<Vec<DVec3>> {
-    const FEW: usize = 300;
-    let mut faces = vec![0; count];
-    for &patch in of_face {
-        faces[patch as usize] += 1usize;
-    }
-    let mut seen = vec![0usize; count];
-    let mut points = vec![Vec::new(); count];
-    for (face, &patch) in of_face.iter().enumerate() {
-        let patch = patch as usize;
-        if seen[patch].is_multiple_of(faces[patch].div_ceil(FEW)) {
-            let corners = topology.triangles[face].iter();
-            points[patch].extend(corners.map(|&v| positions[v as usize]));
-        }
-        seen[patch] += 1;
-    }
-    points
 }
 
 /// Share of the area that regions take on which their vertices lie exactly, or planes between walls.

@@ -1,6 +1,8 @@
 //! Surfaces of shapes in closed form.
 
-use glam::{DQuat, DVec3};
+use std::f64::consts::{FRAC_PI_2, PI};
+
+use glam::{DQuat, DVec3, dvec2};
 use proptest::prelude::*;
 use seamline_mesh::shapes::{self, Diagonals, Shape};
 use seamline_mesh::{Topology, weld};
@@ -119,6 +121,39 @@ fn the_fillet_of_a_shaft_is_a_torus_that_bends_inward() {
         panic!("one torus");
     };
     assert!(!fillet.convex);
+}
+
+/// A disc of radius 2 with a shaft of radius 1 on it and a fillet of `radius` in four chords between, in the single
+/// precision of an export and not along any axis.
+fn filleted_shaft(radius: f64, sides: usize) -> Shape {
+    let corner = 1.0 + radius;
+    let round = [-FRAC_PI_2, -PI];
+    let profile = shapes::profile(
+        vec![
+            shapes::line(dvec2(0.0, 0.0), dvec2(2.0, 0.0)),
+            shapes::line(dvec2(2.0, 0.0), dvec2(2.0, 1.0)),
+            shapes::line(dvec2(2.0, 1.0), dvec2(corner, 1.0)),
+            shapes::arc(dvec2(corner, corner), radius, round[0], round[1], 4),
+            shapes::line(dvec2(1.0, corner), dvec2(1.0, 2.0)),
+            shapes::line(dvec2(1.0, 2.0), dvec2(0.0, 2.0)),
+        ],
+        false,
+    );
+    let turn = DQuat::from_axis_angle(DVec3::new(1.0, 2.0, 3.0).normalize(), 0.7);
+    shapes::revolve(&profile, sides, Diagonals::Uniform).map(|x| (turn * x).as_vec3().as_dvec3())
+}
+
+/// Each strip across it lies on a cylinder of the tube's radius as exactly as it is stored.
+#[test]
+fn a_narrow_fillet_is_one_torus_however_many_strips_it_has() {
+    for sides in [256, 512, 1000] {
+        let (found, truth) = found(&filleted_shaft(0.02, sides));
+        assert!(same(&found.of_face, &truth), "{sides} strips");
+        let [fillet] = of_kind(&found, Kind::Torus)[..] else {
+            panic!("one torus, {sides} strips");
+        };
+        assert!((fillet.surface.b - 0.02).abs() < 1e-5 && (fillet.surface.a - 1.02).abs() < 1e-5);
+    }
 }
 
 #[test]

@@ -169,6 +169,7 @@ fn through_noise(stored: Ground) -> Option<Found> {
     let mut ground = with(noise::standard_deviation(
         stored.positions,
         stored.topology,
+        stored.triangles,
     )?);
     let mut found = look(ground);
     for _ in 0..LOOKED_AGAIN {

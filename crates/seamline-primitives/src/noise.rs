@@ -9,6 +9,7 @@ use glam::DVec3;
 use seamline_mesh::Topology;
 
 use crate::Fitted;
+use crate::pieces::Triangles;
 
 /// Share of the edges that is looked at first: fewer say little.
 const FIRST_SHARE: f64 = 0.12;
@@ -25,6 +26,15 @@ const DEVIATION: f64 = 1.1;
 const HALF_WITHIN: f64 = 0.67;
 /// Least cosine between the normals of two faces that may be in one plane but for noise: 45 degrees.
 const ONE_PLANE: f64 = 0.7;
+/// Height of a triangle, in standard deviations of its vertices, from which its normal says how it lies. At 10 too few
+/// pairs are left on narrow fillets, and those are off a plane by design.
+const HIGH: f64 = 4.0;
+/// Share of the pairs that must be high for the few others to be let alone: without them the knee is not more certain.
+const NEARLY_ALL: f64 = 0.9;
+/// How often that height is taken from a better estimate.
+const ASKED_AGAIN: usize = 3;
+/// Fewest pairs of triangles that are asked.
+const FEWEST: usize = 50;
 
 /// Evidence from which what vertices are off a surface says how noisy they are.
 const SOME_EVIDENCE: u32 = 20;
@@ -32,11 +42,37 @@ const SOME_EVIDENCE: u32 = 20;
 /// Standard deviation of each coordinate of the vertices, in the unit of `positions`. Too large on a mesh without
 /// flat pairs of triangles, where it is how far these are off a plane by design. `None` where no two faces are near
 /// one plane without being in it exactly.
-pub(crate) fn standard_deviation(positions: &[DVec3], topology: &Topology) -> Option<f64> {
-    let mut away: Vec<f64> = (0..topology.edge_faces.len())
-        .filter_map(|edge| off_one_plane(positions, topology, edge))
+///
+/// Noise turns a triangle as low as the noise is large any way about, and the pairs that are near one plane all the same
+/// are those it has moved little. So only higher ones are asked, once it is known how high that is.
+pub(crate) fn standard_deviation(
+    positions: &[DVec3],
+    topology: &Topology,
+    triangles: &Triangles,
+) -> Option<f64> {
+    let height = |edge: usize| {
+        let faces = topology.face_pair(edge)?;
+        let [a, b] = faces.map(|face| triangles.heights[face as usize]);
+        Some(a.min(b))
+    };
+    let mut pairs: Vec<(f64, f64)> = (0..topology.edge_faces.len())
+        .filter_map(|edge| Some((off_one_plane(positions, topology, edge)?, height(edge)?)))
         .collect();
-    away.sort_unstable_by(f64::total_cmp);
+    pairs.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
+    let mut noise = knee(pairs.iter().map(|pair| pair.0).collect())?;
+    for _ in 0..ASKED_AGAIN {
+        let high = pairs.iter().filter(|pair| pair.1 > HIGH * noise);
+        let high: Vec<f64> = high.map(|pair| pair.0).collect();
+        if high.len() < FEWEST || high.len() as f64 > NEARLY_ALL * pairs.len() as f64 {
+            break;
+        }
+        noise = knee(high)?;
+    }
+    Some(noise)
+}
+
+/// The standard deviation by values that rise, the least of which are the noise's.
+fn knee(away: Vec<f64>) -> Option<f64> {
     let at = |share: f64| away.get((share * away.len() as f64) as usize).copied();
     let mut share = FIRST_SHARE;
     while share < LAST_SHARE {

@@ -164,8 +164,9 @@ fn a_mesh_without_extent_is_cut_all_the_same() {
     assert_eq!(find(&[], &Topology::build(0, Vec::new()), 0.0).of_face, []);
 }
 
-/// A smooth cube whose vertices are moved by up to half of `width` along each axis.
-fn noisy_cube(width: f64) -> (Found, Vec<u32>) {
+/// A smooth cube whose vertices are moved by up to half of `width` along each axis, with so many facets across each
+/// rounding.
+fn noisy_cube(width: f64, round: usize) -> (Found, Vec<u32>) {
     let mut random = 7u64;
     let mut unit = || {
         random = random
@@ -173,7 +174,7 @@ fn noisy_cube(width: f64) -> (Found, Vec<u32>) {
             .wrapping_add(1442695040888963407);
         (random >> 33) as f64 / f64::from(1u32 << 31) - 0.5
     };
-    let shape = shapes::smooth_cube(0.2, 12, 8);
+    let shape = shapes::smooth_cube(0.2, 12, round);
     let mut mesh = weld(shape.polygons(), 0.0);
     for x in &mut mesh.polygons.positions {
         *x += DVec3::new(unit(), unit(), unit()) * width;
@@ -184,20 +185,30 @@ fn noisy_cube(width: f64) -> (Found, Vec<u32>) {
 
 #[test]
 fn the_noise_of_vertices_is_told_and_its_size() {
-    assert_eq!(noisy_cube(0.0).0.noise, 0.0);
+    assert_eq!(noisy_cube(0.0, 8).0.noise, 0.0);
     for width in [1e-4, 1e-3] {
-        let deviation = width / 12f64.sqrt();
-        let noise = noisy_cube(width).0.noise;
-        assert!(
-            (0.7..1.4).contains(&(noise / deviation)),
-            "{noise} for {deviation}"
-        );
+        is_told(width, 8);
     }
 }
 
 #[test]
+fn facets_as_narrow_as_the_noise_hide_nothing_of_it() {
+    is_told(0.02, 50);
+}
+
+/// Is the standard deviation told, as nearly as a knee in a curve can be seen?
+fn is_told(width: f64, round: usize) {
+    let deviation = width / 12f64.sqrt();
+    let noise = noisy_cube(width, round).0.noise;
+    assert!(
+        (0.7..1.4).contains(&(noise / deviation)),
+        "{noise} for {deviation}"
+    );
+}
+
+#[test]
 fn a_smooth_cube_keeps_its_patches_under_noise_of_a_thousandth_of_an_edge() {
-    let (found, truth) = noisy_cube(1e-4);
+    let (found, truth) = noisy_cube(1e-4, 8);
     assert!(found.exact_share > 0.5, "{}", found.exact_share);
     let kinds = [Kind::Plane, Kind::Cylinder, Kind::Sphere].map(|kind| of_kind(&found, kind).len());
     assert_eq!(kinds, [6, 12, 8]);

@@ -154,7 +154,11 @@ fn without_something_to_rectify_or_with_two_things_nothing_is_done() {
             .run(&format!("rectify cube.obj --sharp-deg {angles}"))
             .ended(2);
         assert_eq!(ran.err.lines().count(), 1, "{}", ran.err);
+        let option = format!("--sharp-deg {angles}: ");
+        assert!(ran.err.contains(&option), "{}", ran.err);
     }
+    let ran = home.run("rectify cube.obj --sharp-deg 40:15").ended(2);
+    assert!(ran.err.contains("as 15:40"), "{}", ran.err);
     assert!(!home.at("cube.obj.seamline").exists());
 }
 
@@ -329,6 +333,10 @@ fn what_contradicts_itself_or_has_no_effect_is_wrong_use() {
             "--set hard-edges.weak_deg=20: ",
         ),
         (
+            "rectify cube.obj --labels six.seg --rectifier graph-cut --set contour-tracking.dangling=keep",
+            "--set contour-tracking.dangling=keep: has no effect with --rectifier graph-cut; ",
+        ),
+        (
             "plugins check --stage rectify kmeans",
             "--stage rectify: kmeans fills classify; ",
         ),
@@ -466,13 +474,16 @@ fn refined_boundaries_tell_what_was_given_from_what_is_new() {
     let lines: Vec<String> = (0..160).map(|i| format!("{}\n", label(i))).collect();
     home.put("stairs.seg", lines.concat());
     let keep = "--set contour-tracking.rough_above_deg=180";
-    home.run(&format!(
-        "rectify flat.obj --labels stairs.seg --refine {keep}"
-    ))
-    .ended(0);
+    let ran = home
+        .run(&format!(
+            "rectify flat.obj --labels stairs.seg --refine {keep}"
+        ))
+        .ended(0);
     let report = home.json("flat.obj.seamline/report.json");
     let added = report["refined"]["vertices_added"].as_u64();
     assert!(added.is_some_and(|added| added > 0), "{added:?}");
+    let said = format!("  refined: {} vertices added\n", added.unwrap_or(0));
+    assert!(ran.err.contains(&said), "{}", ran.err);
     let curves = fs::read_to_string(home.at("flat.obj.seamline/boundaries.obj")).unwrap();
     let groups: Vec<&str> = curves
         .lines()

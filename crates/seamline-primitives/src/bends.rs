@@ -1,6 +1,6 @@
-//! Strips across a torus, each of which lies on a cylinder of its tube's radius: two beside each other lie on the torus.
+//! Strips across a torus, each of which lies on a cylinder of its tube's radius: those beside each other lie on the torus.
 
-use std::collections::HashSet;
+use std::collections::{BTreeMap, HashSet};
 
 use crate::grow::Soil;
 use crate::hypothesis::Hypothesis;
@@ -9,10 +9,13 @@ use crate::surface::Kind;
 
 /// Radii that differ by no more than this share are those of one tube.
 const SAME_RADIUS: f64 = 0.02;
-/// Cosine of the angle up to which two axes are one (half a degree).
-const ONE_AXIS: f64 = 0.99996;
+/// Cosine of the angle up to which two axes are one (a tenth of a degree).
+const ONE_AXIS: f64 = 0.999_998_5;
+/// Strips a torus is fitted to: two, then more, since how two narrow ones lean against each other is less than their
+/// vertices were rounded by.
+const STRIPS: [usize; 2] = [2, 16];
 
-/// Tori tried on each two strong cylinders of one radius that meet smoothly and have different axes.
+/// Tori tried on strong cylinders of one radius that meet smoothly and have different axes.
 pub(crate) fn tori(soil: &mut Soil, before: &Tried, found: &[Hypothesis]) -> Vec<Hypothesis> {
     let view = soil.view;
     let mut holder = vec![None; view.pieces.count()];
@@ -26,22 +29,37 @@ pub(crate) fn tori(soil: &mut Soil, before: &Tried, found: &[Hypothesis]) -> Vec
             }
         }
     }
-    let mut tried = HashSet::new();
-    let mut tori: Vec<Hypothesis> = Vec::new();
+    let mut bent: Vec<([usize; 2], [u32; 2])> = Vec::new();
+    let mut beside: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
+    let mut known = HashSet::new();
     for link in view.pieces.links.iter().filter(|link| !link.wall) {
-        let [Some(a), Some(b)] = link.pieces.map(|p| holder[p as usize]) else {
-            continue;
-        };
-        let [seed, other] = link.pieces;
-        let known = on_torus[seed as usize] && on_torus[other as usize];
-        if known || a == b || !bend(&found[a], &found[b]) || !tried.insert([a.min(b), a.max(b)]) {
-            continue;
+        if let [Some(a), Some(b)] = link.pieces.map(|p| holder[p as usize])
+            && a != b
+            && bend(&found[a], &found[b])
+            && known.insert([a.min(b), a.max(b)])
+        {
+            bent.push(([a, b], link.pieces));
+            beside.entry(a).or_default().push(b);
+            beside.entry(b).or_default().push(a);
         }
-        let mut pieces = found[a].pieces.clone();
-        pieces.extend(&found[b].pieces);
-        pieces.sort_unstable();
-        pieces.dedup();
-        if let Some(torus) = Scout::new(soil, seed, before).of_kind(Kind::Torus, &pieces) {
+    }
+    let mut tori: Vec<Hypothesis> = Vec::new();
+    for (pair, meet) in bent {
+        for most in STRIPS {
+            if meet.iter().all(|&piece| on_torus[piece as usize]) {
+                break;
+            }
+            let strips = chain(&beside, pair, most);
+            let mut pieces: Vec<u32> = strips
+                .iter()
+                .flat_map(|&strip| found[strip].pieces.iter().copied())
+                .collect();
+            pieces.sort_unstable();
+            pieces.dedup();
+            let scout = Scout::new(soil, meet[0], before);
+            let Some(torus) = scout.of_kind(Kind::Torus, &pieces) else {
+                continue;
+            };
             for &piece in torus.pieces.iter().filter(|_| torus.strong && torus.exact) {
                 on_torus[piece as usize] = true;
             }
@@ -49,6 +67,21 @@ pub(crate) fn tori(soil: &mut Soil, before: &Tried, found: &[Hypothesis]) -> Vec
         }
     }
     tori
+}
+
+/// Two strips and those beside them, `most` at most.
+fn chain(beside: &BTreeMap<usize, Vec<usize>>, pair: [usize; 2], most: usize) -> Vec<usize> {
+    let mut strips = pair.to_vec();
+    let mut at = 0;
+    while at < strips.len() {
+        for &next in &beside[&strips[at]] {
+            if strips.len() < most && !strips.contains(&next) {
+                strips.push(next);
+            }
+        }
+        at += 1;
+    }
+    strips
 }
 
 /// Are two cylinders of one radius about different axes?

@@ -1,10 +1,10 @@
 //! Regions of surfaces, rung by rung of a ladder of tolerances.
 
-use glam::DVec3;
 use seamline_mesh::Topology;
 
+use crate::ground::Ground;
 use crate::hypothesis::{Hypothesis, View};
-use crate::pieces::{NONE, Pieces, Triangles};
+use crate::pieces::{NONE, Pieces};
 use crate::regions::Regions;
 use crate::search::search;
 use crate::select::{borders_speak_for, free_part, select};
@@ -18,27 +18,11 @@ const FLATNESS: f64 = 0.3;
 /// and farther out, where a gently curved free form has flat pieces too.
 pub(crate) const PLANE_VERTICES: [usize; 3] = [7, 25, 25];
 
-/// What a search stands on.
-#[derive(Clone, Copy)]
-pub(crate) struct Ground<'a> {
-    pub precision: f64,
-    pub noise: f64,
-    pub positions: &'a [DVec3],
-    pub triangles: &'a Triangles,
-    pub topology: &'a Topology,
-}
+/// Evidence from which a surface keeps its pieces on the next rung although it does not end as surfaces do (`trust`).
+const STANDS: i64 = 120;
 
-impl<'a> Ground<'a> {
-    pub fn seen(self, pieces: &'a Pieces) -> View<'a> {
-        View {
-            precision: self.precision,
-            noise: self.noise,
-            positions: self.positions,
-            triangles: self.triangles,
-            pieces,
-        }
-    }
-}
+/// How often weak surfaces are gone through: one that is believed speaks for those beside it.
+const TURNS: usize = 3;
 
 /// Regions of surfaces, rung by rung of the ladder of tolerances. What one rung settles the next leaves alone;
 /// what is left is cut into flatter or less flat pieces anew.
@@ -54,7 +38,7 @@ pub(crate) fn climb(ground: Ground, ladder: [f64; 3]) -> (Pieces, Regions) {
         pieces = recut(ground, flat, fewest, pieces, &mut regions);
         // Noisy curved surfaces have flat pieces, too: planes compete with them.
         let planes = if ground.noise > 0.0 {
-            let planes = certain_planes(ground.seen(&pieces), tolerance);
+            let planes = certain_planes(ground.seen(&pieces), &regions, tolerance);
             pieces.certain.fill(false);
             planes
         } else {
@@ -90,14 +74,8 @@ pub(crate) fn recut(
         if taken { piece } else { NONE }
     };
     let mut settled: Vec<u32> = pieces.of_face.iter().map(owned).collect();
-    let Ground {
-        positions,
-        triangles,
-        topology,
-        ..
-    } = ground;
-    settled.resize(topology.triangles.len(), NONE);
-    let next = Pieces::find(positions, topology, triangles, flat, &settled, fewest);
+    settled.resize(ground.topology.triangles.len(), NONE);
+    let next = Pieces::find(ground, flat, &settled, fewest);
     regions.move_to(&pieces, &next);
     next
 }
@@ -109,10 +87,10 @@ fn is_done(pieces: &Pieces, regions: &Regions) -> bool {
     !smooth.any(|link| link.pieces.into_iter().all(free))
 }
 
-/// A hypothesis for each piece that is a plane whatever lies beside it.
-fn certain_planes(view: View, tolerance: f64) -> Vec<Hypothesis> {
+/// A hypothesis for each piece nobody owns that is a plane whatever lies beside it.
+fn certain_planes(view: View, regions: &Regions, tolerance: f64) -> Vec<Hypothesis> {
     (0..view.pieces.count() as u32)
-        .filter(|&piece| view.pieces.certain[piece as usize])
+        .filter(|&p| view.pieces.certain[p as usize] && regions.owner[p as usize] == NONE)
         .map(|piece| view.weigh(view.plane_of(piece), 1.0, vec![piece], tolerance))
         .collect()
 }
@@ -136,6 +114,18 @@ fn accept_planes(view: View, regions: &mut Regions, exactly: bool, tolerance: f6
     bent
 }
 
+/// Evidence from which a strong surface is believed whatever its borders say. Exactly on it, one vertex more than it
+/// has freedoms is proof. Where vertices only come near, a free form comes near too, the longer the farther they may
+/// be off; a cylinder, which is straight one way, is the last it does.
+fn least_evidence(rung: usize, kind: Kind) -> i64 {
+    match (rung, kind) {
+        (0, _) => 1,
+        (1, Kind::Cylinder) => 8,
+        (1, _) => 40,
+        _ => 100,
+    }
+}
+
 /// One rung of the ladder of tolerances.
 fn step(
     view: View,
@@ -151,7 +141,7 @@ fn step(
         let trusted = trust::trusted(view, topology, regions);
         let doubtful: Vec<u32> = regions
             .alive()
-            .filter(|&r| !trusted[r as usize] && regions.all[r as usize].evidence < 120)
+            .filter(|&r| !trusted[r as usize] && regions.all[r as usize].evidence < STANDS)
             .collect();
         doubtful.into_iter().map(|r| regions.dissolve(r)).collect()
     };
@@ -160,17 +150,13 @@ fn step(
         .collect();
     let mut found = search(view, &open, rung, tolerance);
     found.extend(planes);
-    let least = |kind: Kind| match (rung, kind) {
-        (0, _) => 1,
-        (1, Kind::Cylinder) => 8,
-        (1, _) => 40,
-        _ => 100,
+    let enough = |h: &Hypothesis| {
+        let least = least_evidence(rung, h.surface.kind);
+        h.strong && (rung > 0 || h.exact) && h.evidence >= least
     };
-    let enough =
-        |h: &Hypothesis| h.strong && (rung > 0 || h.exact) && h.evidence >= least(h.surface.kind);
     let mut rest = select(view, regions, found, tolerance, |_, h| enough(h));
     if rung == 0 {
-        for _ in 0..3 {
+        for _ in 0..TURNS {
             let before = regions.all.len();
             rest = select(view, regions, rest, tolerance, |regions, h| {
                 borders_speak_for(view, topology, regions, h)
@@ -180,6 +166,7 @@ fn step(
             }
         }
     }
+    // What nothing better has taken goes back to where it was.
     for hypothesis in freed {
         let left = free_part(view, regions, &hypothesis, tolerance);
         if let Some(back) = left

@@ -42,6 +42,7 @@ mod describe;
 mod eigen;
 mod fans;
 mod freedom;
+mod ground;
 mod grow;
 mod guess;
 mod hypothesis;
@@ -49,6 +50,7 @@ mod linear;
 mod look;
 mod noise;
 mod parts;
+mod patches;
 mod pieces;
 mod refine;
 mod regions;
@@ -61,18 +63,20 @@ mod snap;
 mod surface;
 mod tiles;
 mod trust;
+mod unite;
 mod whole;
 
 use glam::DVec3;
-use seamline_mesh::{Sets, Topology};
+use seamline_mesh::Topology;
 
 pub use surface::{Kind, Surface};
 
-use climb::{Ground, PLANE_VERTICES, climb, recut};
+use climb::{PLANE_VERTICES, climb, recut};
+use ground::Ground;
 use hypothesis::View;
+use patches::{Patches, connected};
 use pieces::{NONE, Triangles};
 use regions::Regions;
-use relax::{Noisy, Patches};
 
 /// Distances, in diagonals of the bounding box, at which vertices still lie on a surface: that of an export
 /// in single precision, then those of kernels which store an approximation.
@@ -139,10 +143,17 @@ pub struct Found {
 pub fn find(positions: &[DVec3], topology: &Topology, farthest: f64) -> Found {
     let (centre, diagonal) = frame(positions, topology);
     let scaled: Vec<DVec3> = positions.iter().map(|&x| (x - centre) / diagonal).collect();
-    let stored = PRECISION.hypot(ROUNDING * farthest / diagonal);
-    let mut found = look(&scaled, topology, stored, 0.0);
+    let triangles = Triangles::of(&scaled, &topology.triangles);
+    let ground = Ground {
+        precision: PRECISION.hypot(ROUNDING * farthest / diagonal),
+        noise: 0.0,
+        positions: &scaled,
+        triangles: &triangles,
+        topology,
+    };
+    let mut found = look(ground);
     if found.exact_share < HARDLY_ANYTHING {
-        found = through_noise(&scaled, topology).unwrap_or(found);
+        found = through_noise(ground).unwrap_or(found);
     }
     for fitted in found.surfaces.iter_mut().flatten() {
         *fitted = fitted.moved(centre, diagonal);
@@ -151,54 +162,55 @@ pub fn find(positions: &[DVec3], topology: &Topology, farthest: f64) -> Found {
     found
 }
 
-/// The same where vertices are noisy: precision is what the noise leaves of it.
-fn through_noise(positions: &[DVec3], topology: &Topology) -> Option<Found> {
-    let mut noise = noise::standard_deviation(positions, topology)?;
-    let mut found = look(positions, topology, EXACT_DEVIATIONS * noise, noise);
+/// The same where vertices are noisy. `None` where there is no telling how noisy.
+fn through_noise(stored: Ground) -> Option<Found> {
+    // Less than what storing them takes away cannot be told from it.
+    let with = |noise: f64| {
+        let noise = noise.max(stored.precision);
+        Ground {
+            precision: EXACT_DEVIATIONS * noise,
+            noise,
+            ..stored
+        }
+    };
+    let mut ground = with(noise::standard_deviation(
+        stored.positions,
+        stored.topology,
+        stored.triangles,
+    )?);
+    let mut found = look(ground);
     for _ in 0..LOOKED_AGAIN {
         // What flat pairs of triangles are off a plane may be design; what vertices are off large surfaces is not.
         match noise::residual_of_most(&found.surfaces) {
-            Some(less) if less < MUCH_LESS * noise => noise = less,
+            Some(less) if less < MUCH_LESS * ground.noise => ground = with(less),
             _ => break,
         }
-        found = look(positions, topology, EXACT_DEVIATIONS * noise, noise);
+        found = look(ground);
     }
-    let triangles = Triangles::of(positions, &topology.triangles, noise);
     let mut patches = Patches {
         of_face: found.of_face,
         surfaces: found.surfaces,
     };
-    let noisy = Noisy {
-        positions,
-        topology,
-        triangles: &triangles,
-        noise,
-    };
-    noisy.relax(&mut patches);
-    let (of_face, part_of) = connected(topology, &patches.of_face);
+    relax::relax(ground, &mut patches);
+    let mut patches = patches.connected(ground.topology);
+    relax::weigh_all(ground, &mut patches);
     Some(Found {
-        of_face,
-        surfaces: part_of
-            .iter()
-            .map(|&part| patches.surfaces[part as usize])
-            .collect(),
+        of_face: patches.of_face,
+        surfaces: patches.surfaces,
         exact_share: found.exact_share,
-        noise,
+        noise: ground.noise,
     })
 }
 
-/// Finds the patches of a mesh of diagonal one, whose vertices lie on its surfaces up to a root mean square of
-/// `precision`.
-fn look(scaled: &[DVec3], topology: &Topology, precision: f64, noise: f64) -> Found {
-    let ladder = LADDER.map(|tolerance| tolerance.max(6.0 * precision));
-    let triangles = Triangles::of(scaled, &topology.triangles, noise);
-    let ground = Ground {
-        precision,
-        noise,
-        positions: scaled,
-        triangles: &triangles,
+/// Finds the patches of a mesh whose vertices lie on its surfaces up to the precision of the ground.
+fn look(ground: Ground) -> Found {
+    let Ground {
+        positions,
         topology,
-    };
+        precision,
+        ..
+    } = ground;
+    let ladder = LADDER.map(|tolerance| tolerance.max(6.0 * precision));
     let (pieces, mut regions) = climb(ground, ladder);
     let exact_share = exact_share(ground.seen(&pieces), &regions);
     if exact_share < HARDLY_ANYTHING {
@@ -231,48 +243,26 @@ fn look(scaled: &[DVec3], topology: &Topology, precision: f64, noise: f64) -> Fo
         .map(|&p| parts.of_piece[p as usize])
         .collect();
     creases::split(
-        scaled,
+        positions,
         topology,
-        &triangles,
+        ground.triangles,
         &parts.forms,
-        noise,
+        ground.noise,
         &mut of_face,
     );
     let (of_face, part_of) = connected(topology, &of_face);
-    let mut surfaces = describe::surfaces(view, &regions, &parts, &part_of, ladder[0]);
-    let points = patch_points(scaled, topology, &of_face, surfaces.len());
-    snap::snap(&mut surfaces, &points, precision);
-    Found {
+    let mut patches = Patches {
         of_face,
-        surfaces,
+        surfaces: describe::surfaces(view, &regions, &parts, &part_of, ladder[0]),
+    };
+    let points = patches.points(positions, topology);
+    snap::snap(&mut patches.surfaces, &points, precision);
+    Found {
+        of_face: patches.of_face,
+        surfaces: patches.surfaces,
         exact_share,
-        noise,
+        noise: ground.noise,
     }
-}
-
-/// Vertices of each patch, a few of many.
-fn patch_points(
-    positions: &[DVec3],
-    topology: &Topology,
-    of_face: &[u32],
-    count: usize,
-) -> Vec<Vec<DVec3>> {
-    const FEW: usize = 300;
-    let mut faces = vec![0; count];
-    for &patch in of_face {
-        faces[patch as usize] += 1usize;
-    }
-    let mut seen = vec![0usize; count];
-    let mut points = vec![Vec::new(); count];
-    for (face, &patch) in of_face.iter().enumerate() {
-        let patch = patch as usize;
-        if seen[patch].is_multiple_of(faces[patch].div_ceil(FEW)) {
-            let corners = topology.triangles[face].iter();
-            points[patch].extend(corners.map(|&v| positions[v as usize]));
-        }
-        seen[patch] += 1;
-    }
-    points
 }
 
 /// Share of the area that regions take on which their vertices lie exactly, or planes between walls.
@@ -306,24 +296,6 @@ fn nothing_exact(topology: &Topology) -> Found {
         exact_share: 0.0,
         noise: 0.0,
     }
-}
-
-/// A number for each connected set of faces of one part, and the part of each number.
-fn connected(topology: &Topology, parts: &[u32]) -> (Vec<u32>, Vec<u32>) {
-    let mut sets = Sets::new(parts.len());
-    for edge in 0..topology.edge_faces.len() {
-        if let Some([a, b]) = topology.face_pair(edge)
-            && parts[a as usize] == parts[b as usize]
-        {
-            sets.unite(a, b);
-        }
-    }
-    let (of_face, count) = sets.numbered();
-    let mut part_of = vec![0; count];
-    for (&patch, &part) in of_face.iter().zip(parts) {
-        part_of[patch as usize] = part;
-    }
-    (of_face, part_of)
 }
 
 /// Centre and diagonal of the box of the used vertices.

@@ -7,6 +7,7 @@ use glam::DVec3;
 use seamline_mesh::Topology;
 
 use crate::certain::is_certain_plane;
+use crate::ground::Ground;
 use crate::rows::Rows;
 
 /// No piece, or no region.
@@ -15,9 +16,6 @@ pub(crate) const NONE: u32 = u32::MAX;
 /// Dihedral angle above which no surface continues. Inside true patches next to nothing is above 40 degrees
 /// in any export measured; the least common crease of parts, 45 degrees, is.
 const WALL: f64 = 40.0 / 180.0 * PI;
-
-/// Standard deviations of a vertex for which the normal of a triangle is turned with it.
-const LEANS: f64 = 3.0;
 
 /// Two pieces that share edges.
 #[derive(Clone, Copy, Debug)]
@@ -74,19 +72,16 @@ pub(crate) struct Triangles {
     pub areas: Vec<f64>,
     /// Area doubled over the longest edge.
     pub heights: Vec<f64>,
-    /// How far noise may turn the normal, radians.
-    pub leans: Vec<f64>,
 }
 
 impl Triangles {
-    pub fn of(positions: &[DVec3], triangles: &[[u32; 3]], noise: f64) -> Self {
+    pub fn of(positions: &[DVec3], triangles: &[[u32; 3]]) -> Self {
         let count = triangles.len();
         let mut all = Self {
             normals: Vec::with_capacity(count),
             centroids: Vec::with_capacity(count),
             areas: Vec::with_capacity(count),
             heights: Vec::with_capacity(count),
-            leans: Vec::with_capacity(count),
         };
         for corners in triangles {
             let [a, b, c] = corners.map(|v| positions[v as usize]);
@@ -106,8 +101,6 @@ impl Triangles {
                 0.0
             };
             all.heights.push(height);
-            all.leans
-                .push((LEANS * noise / height.max(f64::MIN_POSITIVE)).min(PI));
         }
         all
     }
@@ -117,15 +110,14 @@ impl Pieces {
     /// Finds the pieces: from the largest triangle down, each takes in the triangles connected to it whose
     /// corners lie within `tolerance` of its plane and whose normals agree, as far as a sliver's can. Faces with
     /// a number in `settled` are together with those of the same number, and with no others.
-    pub fn find(
-        positions: &[DVec3],
-        topology: &Topology,
-        triangles: &Triangles,
-        tolerance: f64,
-        settled: &[u32],
-        fewest: usize,
-    ) -> Self {
-        let of_face = grow_flat(positions, topology, triangles, tolerance, settled);
+    pub fn find(ground: Ground, tolerance: f64, settled: &[u32], fewest: usize) -> Self {
+        let Ground {
+            positions,
+            triangles,
+            topology,
+            ..
+        } = ground;
+        let of_face = grow_flat(ground, tolerance, settled);
         let count = of_face.iter().max().map_or(0, |&last| last as usize + 1);
         let mut normals = vec![DVec3::ZERO; count];
         let mut centroids = vec![DVec3::ZERO; count];
@@ -139,7 +131,7 @@ impl Pieces {
             centroids[piece as usize] += triangles.centroids[face] * area;
             areas[piece as usize] += area;
             let lean = &mut leans[piece as usize];
-            *lean = lean.min(triangles.leans[face]);
+            *lean = lean.min(ground.lean(face as u32));
             faces.push((piece, face as u32));
             vertices.extend(topology.triangles[face].map(|v| (piece, v)));
         }
@@ -236,13 +228,8 @@ impl Pieces {
     }
 }
 
-fn grow_flat(
-    positions: &[DVec3],
-    topology: &Topology,
-    triangles: &Triangles,
-    tolerance: f64,
-    settled: &[u32],
-) -> Vec<u32> {
+fn grow_flat(ground: Ground, tolerance: f64, settled: &[u32]) -> Vec<u32> {
+    let triangles = ground.triangles;
     let mut numbers: Vec<u32> = settled.iter().copied().filter(|&n| n != NONE).collect();
     numbers.sort_unstable();
     numbers.dedup();
@@ -268,16 +255,7 @@ fn grow_flat(
         of_face[seed as usize] = count;
         loop {
             let fitted = members.len();
-            spread_flat(
-                positions,
-                topology,
-                triangles,
-                tolerance,
-                plane,
-                count,
-                &mut members,
-                &mut of_face,
-            );
+            spread_flat(ground, tolerance, plane, count, &mut members, &mut of_face);
             // A plane known from few triangles errs far away from them.
             if members.len() < 2 * fitted {
                 break;
@@ -290,24 +268,27 @@ fn grow_flat(
 }
 
 /// Lets a flat piece take in the triangles in its plane, given by normal and point.
-#[allow(clippy::too_many_arguments)]
 fn spread_flat(
-    positions: &[DVec3],
-    topology: &Topology,
-    triangles: &Triangles,
+    ground: Ground,
     tolerance: f64,
     (normal, point): (DVec3, DVec3),
     piece: u32,
     members: &mut Vec<u32>,
     of_face: &mut [u32],
 ) {
+    let Ground {
+        positions,
+        triangles,
+        topology,
+        ..
+    } = ground;
     let in_plane = |face: u32| {
+        let lean = ground.lean(face);
         let face = face as usize;
         let away = (triangles.normals[face] - normal).length();
         let sure = triangles.heights[face].max(f64::MIN_POSITIVE);
         let agrees = away <= 0.004 + 4.0 * tolerance / sure
-            && (triangles.normals[face].dot(normal)
-                >= (PI / 3.0 + triangles.leans[face]).min(PI).cos()
+            && (triangles.normals[face].dot(normal) >= (PI / 3.0 + lean).min(PI).cos()
                 || triangles.areas[face] == 0.0);
         agrees
             && topology.triangles[face]

@@ -1,4 +1,8 @@
 //! Where vertices are noisy: flat pieces of a curved surface that were taken for planes.
+//!
+//! Noise hides that a strip of a cylinder bends, and a plane is the surface that needs least to be proved. Such planes
+//! lie beside each other as tiles do, with no crease between; where one is set free, a surface that takes in several
+//! can be found on the next rung, and what none takes in is flat still.
 
 use crate::hypothesis::View;
 use crate::pieces::NONE;
@@ -11,7 +15,7 @@ const LARGE: i64 = 60;
 /// explains.
 const SMOOTH_SHARE: f64 = 0.3;
 
-/// Dissolves planes that are tiles of something curved.
+/// Dissolves planes that are tiles of something curved: all that are before any of them is.
 pub(crate) fn dissolve(view: View, regions: &mut Regions) {
     let tiles: Vec<u32> = regions
         .alive()
@@ -22,6 +26,7 @@ pub(crate) fn dissolve(view: View, regions: &mut Regions) {
     }
 }
 
+/// Is a region a small plane that goes on to others without a crease?
 fn is_tile(view: View, regions: &Regions, region: u32) -> bool {
     let small_plane = |r: u32| {
         let region = &regions.all[r as usize];

@@ -1,6 +1,8 @@
 //! Surfaces of shapes in closed form.
 
-use glam::{DQuat, DVec3};
+use std::f64::consts::{FRAC_PI_2, PI};
+
+use glam::{DQuat, DVec3, dvec2};
 use proptest::prelude::*;
 use seamline_mesh::shapes::{self, Diagonals, Shape};
 use seamline_mesh::{Topology, weld};
@@ -121,6 +123,39 @@ fn the_fillet_of_a_shaft_is_a_torus_that_bends_inward() {
     assert!(!fillet.convex);
 }
 
+/// A disc of radius 2 with a shaft of radius 1 on it and a fillet of `radius` in four chords between, in the single
+/// precision of an export and not along any axis.
+fn filleted_shaft(radius: f64, sides: usize) -> Shape {
+    let corner = 1.0 + radius;
+    let round = [-FRAC_PI_2, -PI];
+    let profile = shapes::profile(
+        vec![
+            shapes::line(dvec2(0.0, 0.0), dvec2(2.0, 0.0)),
+            shapes::line(dvec2(2.0, 0.0), dvec2(2.0, 1.0)),
+            shapes::line(dvec2(2.0, 1.0), dvec2(corner, 1.0)),
+            shapes::arc(dvec2(corner, corner), radius, round[0], round[1], 4),
+            shapes::line(dvec2(1.0, corner), dvec2(1.0, 2.0)),
+            shapes::line(dvec2(1.0, 2.0), dvec2(0.0, 2.0)),
+        ],
+        false,
+    );
+    let turn = DQuat::from_axis_angle(DVec3::new(1.0, 2.0, 3.0).normalize(), 0.7);
+    shapes::revolve(&profile, sides, Diagonals::Uniform).map(|x| (turn * x).as_vec3().as_dvec3())
+}
+
+/// Each strip across it lies on a cylinder of the tube's radius as exactly as it is stored.
+#[test]
+fn a_narrow_fillet_is_one_torus_however_many_strips_it_has() {
+    for sides in [256, 512, 1000] {
+        let (found, truth) = found(&filleted_shaft(0.02, sides));
+        assert!(same(&found.of_face, &truth), "{sides} strips");
+        let [fillet] = of_kind(&found, Kind::Torus)[..] else {
+            panic!("one torus, {sides} strips");
+        };
+        assert!((fillet.surface.b - 0.02).abs() < 1e-5 && (fillet.surface.a - 1.02).abs() < 1e-5);
+    }
+}
+
 #[test]
 fn a_mesh_without_extent_is_cut_all_the_same() {
     let topology = Topology::build(3, vec![[0, 1, 2]]);
@@ -129,8 +164,9 @@ fn a_mesh_without_extent_is_cut_all_the_same() {
     assert_eq!(find(&[], &Topology::build(0, Vec::new()), 0.0).of_face, []);
 }
 
-/// A smooth cube whose vertices are moved by up to half of `width` along each axis.
-fn noisy_cube(width: f64) -> (Found, Vec<u32>) {
+/// A smooth cube whose vertices are moved by up to half of `width` along each axis, with so many facets across each
+/// rounding.
+fn noisy_cube(width: f64, round: usize) -> (Found, Vec<u32>) {
     let mut random = 7u64;
     let mut unit = || {
         random = random
@@ -138,7 +174,7 @@ fn noisy_cube(width: f64) -> (Found, Vec<u32>) {
             .wrapping_add(1442695040888963407);
         (random >> 33) as f64 / f64::from(1u32 << 31) - 0.5
     };
-    let shape = shapes::smooth_cube(0.2, 12, 8);
+    let shape = shapes::smooth_cube(0.2, 12, round);
     let mut mesh = weld(shape.polygons(), 0.0);
     for x in &mut mesh.polygons.positions {
         *x += DVec3::new(unit(), unit(), unit()) * width;
@@ -149,20 +185,30 @@ fn noisy_cube(width: f64) -> (Found, Vec<u32>) {
 
 #[test]
 fn the_noise_of_vertices_is_told_and_its_size() {
-    assert_eq!(noisy_cube(0.0).0.noise, 0.0);
+    assert_eq!(noisy_cube(0.0, 8).0.noise, 0.0);
     for width in [1e-4, 1e-3] {
-        let deviation = width / 12f64.sqrt();
-        let noise = noisy_cube(width).0.noise;
-        assert!(
-            (0.7..1.4).contains(&(noise / deviation)),
-            "{noise} for {deviation}"
-        );
+        is_told(width, 8);
     }
 }
 
 #[test]
+fn facets_as_narrow_as_the_noise_hide_nothing_of_it() {
+    is_told(0.02, 50);
+}
+
+/// Is the standard deviation told, as nearly as a knee in a curve can be seen?
+fn is_told(width: f64, round: usize) {
+    let deviation = width / 12f64.sqrt();
+    let noise = noisy_cube(width, round).0.noise;
+    assert!(
+        (0.7..1.4).contains(&(noise / deviation)),
+        "{noise} for {deviation}"
+    );
+}
+
+#[test]
 fn a_smooth_cube_keeps_its_patches_under_noise_of_a_thousandth_of_an_edge() {
-    let (found, truth) = noisy_cube(1e-4);
+    let (found, truth) = noisy_cube(1e-4, 8);
     assert!(found.exact_share > 0.5, "{}", found.exact_share);
     let kinds = [Kind::Plane, Kind::Cylinder, Kind::Sphere].map(|kind| of_kind(&found, kind).len());
     assert_eq!(kinds, [6, 12, 8]);

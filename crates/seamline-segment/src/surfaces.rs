@@ -97,13 +97,7 @@ fn find_stored(positions: &[DVec3], topology: &Topology, mesh: &Mesh, length: f6
 /// The surface each face lies on exactly, [`NONE`] where there is none; none at all where they explain too little.
 pub(crate) fn exact_surfaces(settings: &SurfaceSettings, mesh: &LabelledMesh<'_>) -> Vec<u32> {
     let positions: Vec<DVec3> = mesh.positions.iter().map(|p| p.0).collect();
-    let [low, high] = mesh.mesh.bounding_box();
-    let none = (DVec3::INFINITY, DVec3::NEG_INFINITY);
-    let (first, last) = positions
-        .iter()
-        .fold(none, |(low, high), &x| (low.min(x), high.max(x)));
-    let length = (high - low).max_element() / (last - first).max_element();
-    let found = find_stored(&positions, mesh.topology, mesh.mesh, length);
+    let found = find_stored(&positions, mesh.topology, mesh.mesh, mesh.scale.length);
     if !settings.explains(&found) {
         return Vec::new();
     }

@@ -1,8 +1,9 @@
 //! Files put in another place without ever taking the place of another file.
 
-use std::ffi::OsString;
+use std::ffi::{OsStr, OsString};
 use std::fs::{self, File};
 use std::io;
+use std::os::unix::ffi::OsStrExt;
 use std::path::{Path, PathBuf};
 
 use rustix::fs::{CWD, RenameFlags, renameat_with};
@@ -10,6 +11,7 @@ use rustix::io::Errno;
 
 use crate::fitted::fitted;
 use crate::outputs::{TEMPORARY_END, TEMPORARY_START, hold};
+use crate::pairs::stem;
 use crate::tracker::Stamp;
 
 /// How many names are tried before it is taken for a mistake.
@@ -60,17 +62,17 @@ pub(crate) fn move_aside_with(
     ))
 }
 
-/// `part.stl`, `part-1.stl`, `part-2.stl`, ...
+/// `part.stl`, `part-1.stl`, `part-2.stl`, ... The number is the stem's, which halves of a pair have in common:
+/// `part-1.edges.txt`.
 fn numbered(path: &Path, number: u32) -> PathBuf {
     if number == 0 {
         return path.to_owned();
     }
-    let mut name = path.file_stem().map(OsString::from).unwrap_or_default();
+    let whole = path.file_name().unwrap_or_default();
+    let mut name = OsString::from(stem(path).file_name().unwrap_or_default());
+    let end = OsStr::from_bytes(&whole.as_bytes()[name.len()..]);
     name.push(format!("-{number}"));
-    if let Some(extension) = path.extension() {
-        name.push(".");
-        name.push(extension);
-    }
+    name.push(end);
     path.with_file_name(fitted(&name, ""))
 }
 
@@ -156,6 +158,19 @@ mod tests {
             let place = move_aside(&source, &wanted).unwrap();
             assert_eq!(place, wanted.with_file_name(name));
             assert_eq!(fs::read_to_string(place).unwrap(), text);
+        }
+    }
+
+    #[test]
+    fn markings_are_numbered_as_the_mesh_they_belong_to() {
+        for (name, next) in [
+            ("a.edges.txt", "a-1.edges.txt"),
+            ("a.seg", "a-1.seg"),
+            ("a.b.stl", "a.b-1.stl"),
+            ("notes.txt", "notes-1.txt"),
+            ("none", "none-1"),
+        ] {
+            assert_eq!(numbered(Path::new(name), 1), Path::new(next));
         }
     }
 

@@ -18,7 +18,7 @@ mod watch;
 use clap::Parser;
 
 /// The allocator of the C library raises the size from which memory goes back to the system as large arrays come and
-/// go: two workers on meshes of 250,000 triangles took 760 to 975 MB then, of which they used 466.
+/// go, until the program holds far more than it uses, and more than the daemon's limit.
 #[global_allocator]
 static ALLOCATOR: mimalloc::MiMalloc = mimalloc::MiMalloc;
 

@@ -14,6 +14,9 @@ use crate::results::{Failure, Results};
 use crate::say::tell_as_it_comes;
 use crate::settings::pipeline_of_args;
 
+/// The rectifier whose settings say what becomes of open ends.
+const CONTOUR_TRACKING: &str = "contour-tracking";
+
 /// Rectifies what is given for one mesh.
 pub fn run(args: &RectifyArgs) -> Result<Outcome> {
     refuse_without_effect(args)?;
@@ -93,7 +96,25 @@ fn refuse_without_effect(args: &RectifyArgs) -> Result<(), WrongUse> {
             "--set {set}: what edges are hard is said by --sharp-deg; name both angles there, as 15:40"
         )));
     }
-    Ok(())
+    refuse_ends_of_another_rectifier(args)
+}
+
+/// What becomes of a contour that ends is [`CONTOUR_TRACKING`]'s to say: another rectifier has no settings for it, and
+/// tells of no ends.
+fn refuse_ends_of_another_rectifier(args: &RectifyArgs) -> Result<(), WrongUse> {
+    let Some(rectifier) = &args.pipeline.rectifier else {
+        return Ok(());
+    };
+    let of_tracking = |set: &&String| {
+        let key = set.trim_start().strip_prefix(CONTOUR_TRACKING);
+        key.is_some_and(|key| key.starts_with('.'))
+    };
+    match args.pipeline.set.iter().find(of_tracking) {
+        Some(set) if rectifier != CONTOUR_TRACKING => Err(WrongUse(format!(
+            "--set {set}: has no effect with --rectifier {rectifier}; leave one of the two out"
+        ))),
+        _ => Ok(()),
+    }
 }
 
 /// The settings the arguments stand for.
@@ -104,19 +125,23 @@ fn said(args: &RectifyArgs) -> Result<Vec<(&'static str, String)>, WrongUse> {
     }
     if let Some(angles) = &args.what.sharp_deg {
         let (weak, strong) = angles.split_once(':').unwrap_or((angles, angles));
-        for (key, angle) in [
-            ("hard-edges.weak_deg", weak),
-            ("hard-edges.strong_deg", strong),
-        ] {
+        let degrees = |angle: &str| {
             let degrees = angle.trim().parse::<f64>().ok();
             let degrees = degrees.filter(|deg| (0.0..180.0).contains(deg) && *deg > 0.0);
-            let degrees = degrees.ok_or_else(|| {
+            degrees.ok_or_else(|| {
                 WrongUse(format!(
                     "--sharp-deg {angles}: wants an angle above 0 and below 180 degrees, or two as 15:40"
                 ))
-            })?;
-            said.push((key, degrees.to_string()));
+            })
+        };
+        let [weak_deg, strong_deg] = [degrees(weak)?, degrees(strong)?];
+        if weak_deg > strong_deg {
+            return Err(WrongUse(format!(
+                "--sharp-deg {angles}: the smaller angle comes first, as {strong_deg}:{weak_deg}"
+            )));
         }
+        said.push(("hard-edges.weak_deg", weak_deg.to_string()));
+        said.push(("hard-edges.strong_deg", strong_deg.to_string()));
     } else {
         said.push(("hard-edges.strong_deg", "0".to_owned()));
         said.push(("hard-edges.weak_deg", "0".to_owned()));

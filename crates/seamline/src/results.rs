@@ -150,6 +150,10 @@ impl<'a> Results<'a> {
         if let Some(changes) = &segmentation.changes {
             say(&format_args!("  {}", said_of(changes)));
         }
+        if let Some(refined) = &segmentation.refined {
+            let added = counted(refined.vertices_added, "vertex", "vertices");
+            say(&format_args!("  refined: {added} added"));
+        }
         if self.said.verbose {
             say_stages(loaded, segmentation);
         }

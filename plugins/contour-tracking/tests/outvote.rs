@@ -1,9 +1,9 @@
 //! Labels of a sheet of 4 x 4 unit squares held against the surfaces it is said to lie on.
 
-use glam::dvec3;
+use glam::{DVec3, dvec3};
 use seamline_contour_tracking::{Outvoted, outvote};
 use seamline_ecs::components::{DihedralAngle, FaceLabel, FaceShape, NONE, Position, SharpEdge};
-use seamline_ecs::{GivenAs, LabelledMesh, boundary};
+use seamline_ecs::{GivenAs, LabelledMesh, MeshScale, boundary};
 use seamline_mesh::{Format, PolygonMesh, Topology, weld};
 
 const SIDE: u32 = 4;
@@ -54,6 +54,10 @@ fn outvoted(labels: &[u32], surfaces: &[u32]) -> (Outvoted, Topology) {
             given_edges: &[],
             given_as: GivenAs::Labels,
             mesh: &mesh,
+            scale: MeshScale {
+                centre: DVec3::ZERO,
+                length: 1.0,
+            },
         },
         surfaces,
         &rough,

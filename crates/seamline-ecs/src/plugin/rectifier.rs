@@ -11,7 +11,7 @@ use serde::Serialize;
 use super::{StepError, StepSettings, check_answers};
 use crate::column::{Column, ColumnMut};
 use crate::components::*;
-use crate::job::{Counts, GivenAs, GivenBoundary, InputMesh, MeshTopology};
+use crate::job::{Counts, GivenAs, GivenBoundary, InputMesh, MeshScale, MeshTopology};
 use crate::stage::{Stage, StageSystems, fallible};
 
 /// One way to clean the boundaries of patches. The value is the plugin's settings.
@@ -161,6 +161,8 @@ pub struct LabelledMesh<'a> {
     pub given_as: GivenAs,
     /// The mesh as it was read, in the file's unit, its vertices and faces in the file's order.
     pub mesh: &'a Mesh,
+    /// From its unit to that of the scaled mesh.
+    pub scale: MeshScale,
 }
 
 impl LabelledMesh<'_> {
@@ -192,6 +194,7 @@ struct BoundaryColumns<'w, 's> {
     sharp: Column<'w, 's, SharpEdge>,
     scores: Column<'w, 's, BoundaryScore>,
     mesh: Res<'w, InputMesh>,
+    scale: Res<'w, MeshScale>,
     given: Res<'w, GivenBoundary>,
 }
 
@@ -211,6 +214,7 @@ impl BoundaryColumns<'_, '_> {
             },
             given_as: self.given.origin,
             mesh: &self.mesh.0,
+            scale: *self.scale,
         }
     }
 }

@@ -108,6 +108,13 @@ impl<'a> Places<'a> {
     }
 
     fn nearest(&self, at: DVec3, place: Place) -> Result<u32, MarkingsError> {
+        if !at.is_finite() {
+            return Err(MarkingsError::at(
+                place,
+                "the vertex is not three finite numbers",
+                "a vertex is `v x y z`, in the mesh's own coordinates",
+            ));
+        }
         let position = |v: &u32| self.mesh.positions()[*v as usize];
         let from = self
             .by_x
@@ -159,6 +166,10 @@ mod tests {
         assert_eq!(
             message("v 0 0 0\nv 1 0 0.5\nl 1 2\n"),
             "line 2: the mesh has no vertex there; the nearest is 5.000e-1 away"
+        );
+        assert_eq!(
+            message("v 0 0 0\nv nan 0 0\nl 1 2\n"),
+            "line 2: the vertex is not three finite numbers"
         );
         assert_eq!(
             message("v 0 0 0\nl 1 2\n"),

@@ -246,6 +246,18 @@ mod tests {
     }
 
     #[test]
+    fn what_is_no_number_is_no_label_and_no_coordinate() {
+        for kind in ["int", "float"] {
+            let property = format!("property {kind} part_no\n");
+            let read = of(&property, ["nan", "4"], Some("part_no")).unwrap_err();
+            assert!(
+                read.contains("line 19: `nan` is not a finite number;"),
+                "{read}"
+            );
+        }
+    }
+
+    #[test]
     fn where_more_than_one_thing_could_be_meant_they_are_named() {
         let two = of("property int a\nproperty int b\n", ["1 2", "1 3"], None).unwrap_err();
         assert!(two.ends_with("they have a, b"), "{two}");

@@ -261,6 +261,13 @@ impl Rows<'_> {
                 .is_some_and(|x| !x.is_finite())
         };
         if let Some(word) = line.split(u8::is_ascii_whitespace).find(is_not_finite) {
+            if element.name == "face" {
+                return ReadError::Syntax {
+                    place,
+                    reason: format!("`{}` is not a finite number", quote(word)),
+                    hint: "numbers of a face, its vertices and its labels, are finite",
+                };
+            }
             return ReadError::NotFinite {
                 place,
                 value: quote(word),

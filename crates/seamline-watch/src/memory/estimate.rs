@@ -17,9 +17,8 @@
 //! | each triangle by itself, STL binary | 432,992 | 3 | 2,605 | 4,317 |
 //! | strip and many unused vertices, OBJ | 100,000 | 4 | 3,102 | 4,842 |
 //!
-//! All that with the allocator of the C library. With the program's own, which gives pages back a moment later, one
-//! torus of 250,000 triangles takes 1,310 bytes a triangle (930 before) and two workers on ten of them 656 to 672 MB
-//! (760 to 975 before): within the quarter of the limit that is left free.
+//! All that with the allocator of the C library. The program's own gives pages back a moment later: a single mesh peaks
+//! higher by it, several in a row lower, within the quarter of the limit that is left free (`bounded_memory`).
 //!
 //! The column of `cad` is without surfaces. With them it takes 974 on the flange of 432,992 triangles, and on a noisy
 //! torus of 250,000 as much as without: within the margin.

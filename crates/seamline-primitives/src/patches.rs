@@ -1,0 +1,64 @@
+//! Patches: which faces are together, and on which surface.
+
+use glam::DVec3;
+use seamline_mesh::{Sets, Topology};
+
+use crate::Fitted;
+
+/// Most vertices of a patch that are looked at where all would tell no more.
+const MOST_POINTS: usize = 400;
+
+/// Patches, one number a face, and the surface of each.
+pub(crate) struct Patches {
+    pub of_face: Vec<u32>,
+    pub surfaces: Vec<Option<Fitted>>,
+}
+
+impl Patches {
+    /// Distinct vertices of each patch, a few of many, from all over it.
+    pub fn points(&self, positions: &[DVec3], topology: &Topology) -> Vec<Vec<DVec3>> {
+        let mut vertices = vec![Vec::new(); self.surfaces.len()];
+        for (face, &patch) in self.of_face.iter().enumerate() {
+            vertices[patch as usize].extend(topology.triangles[face]);
+        }
+        let points = vertices.into_iter().map(|mut all: Vec<u32>| {
+            all.sort_unstable();
+            all.dedup();
+            a_few(&all).map(|&v| positions[v as usize]).collect()
+        });
+        points.collect()
+    }
+
+    /// The same with a number for each connected part of a patch.
+    pub fn connected(self, topology: &Topology) -> Self {
+        let (of_face, patch_of) = connected(topology, &self.of_face);
+        let surfaces = patch_of
+            .iter()
+            .map(|&p| self.surfaces[p as usize])
+            .collect();
+        Self { of_face, surfaces }
+    }
+}
+
+/// Some of many, evenly.
+pub(crate) fn a_few<T>(all: &[T]) -> impl Iterator<Item = &T> {
+    all.iter().step_by(all.len().div_ceil(MOST_POINTS).max(1))
+}
+
+/// A number for each connected set of faces of one part, and the part of each number.
+pub(crate) fn connected(topology: &Topology, parts: &[u32]) -> (Vec<u32>, Vec<u32>) {
+    let mut sets = Sets::new(parts.len());
+    for edge in 0..topology.edge_faces.len() {
+        if let Some([a, b]) = topology.face_pair(edge)
+            && parts[a as usize] == parts[b as usize]
+        {
+            sets.unite(a, b);
+        }
+    }
+    let (of_face, count) = sets.numbered();
+    let mut part_of = vec![0; count];
+    for (&patch, &part) in of_face.iter().zip(parts) {
+        part_of[patch as usize] = part;
+    }
+    (of_face, part_of)
+}

@@ -117,7 +117,7 @@ fn accept_planes(view: View, regions: &mut Regions, exactly: bool, tolerance: f6
 /// Evidence from which a strong surface is believed whatever its borders say. Exactly on it, one vertex more than it
 /// has freedoms is proof. Where vertices only come near, a free form comes near too, the longer the farther they may
 /// be off; a cylinder, which is straight one way, is the last it does.
-fn least_evidence(rung: usize, kind: Kind) -> i64 {
+pub(crate) fn least_evidence(rung: usize, kind: Kind) -> i64 {
     match (rung, kind) {
         (0, _) => 1,
         (1, Kind::Cylinder) => 8,

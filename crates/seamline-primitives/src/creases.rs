@@ -3,6 +3,7 @@
 use std::collections::{BTreeMap, HashMap, HashSet};
 
 use glam::DVec3;
+use rayon::prelude::*;
 use seamline_mesh::{Sets, Topology};
 
 use crate::chains::Chains;
@@ -52,7 +53,7 @@ pub(crate) fn split(
             of_face,
         };
         let turns: HashMap<u32, f64> = edges
-            .iter()
+            .par_iter()
             .map(|&(edge, faces)| (edge, angles.at(edge, faces)))
             .collect();
         let mut sorted: Vec<f64> = turns.values().copied().collect();

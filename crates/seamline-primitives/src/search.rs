@@ -5,8 +5,9 @@ use rayon::prelude::*;
 
 use crate::around::{Around, Marks};
 use crate::bends;
-use crate::hypothesis::{Hypothesis, View};
+use crate::climb::least_evidence;
 use crate::grow::Soil;
+use crate::hypothesis::{Hypothesis, View};
 use crate::scout::{About, COVERS, Scout, Tried};
 
 /// After so many seeds in vain one more piece about each further one is none: a large free form takes as many
@@ -99,6 +100,7 @@ struct State {
     amid_failure: Vec<bool>,
     /// Seeds in vain one after the other.
     in_a_row: usize,
+    /// The rung of the ladder of tolerances.
     rung: usize,
     /// Pieces about a seed in vain that are none either.
     least: usize,
@@ -118,7 +120,13 @@ impl State {
         for &piece in &found.midst {
             self.amid_failure[piece as usize] = true;
         }
-        if found.hypotheses.iter().any(|h| h.strong && (self.rung>0||h.exact)) {
+        // What is not exact, or too little at the loosest tolerance, is not believed for itself.
+        let counts = |h: &Hypothesis| match self.rung {
+            0 => h.exact,
+            1 => true,
+            rung => h.evidence >= least_evidence(rung, h.surface.kind),
+        };
+        if found.hypotheses.iter().any(|h| h.strong && counts(h)) {
             self.in_a_row /= 2;
         } else {
             self.in_a_row += 1;

@@ -158,13 +158,7 @@ impl Freedom<5> for Cylinder {
         let (distance, [x, y]) = seen.outward();
         (
             distance - self.radius,
-            [
-                -x,
-                -y,
-                -seen.height * x,
-                -seen.height * y,
-                -f64x4::ONE,
-            ],
+            [-x, -y, -seen.height * x, -seen.height * y, -f64x4::ONE],
         )
     }
 

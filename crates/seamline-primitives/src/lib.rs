@@ -37,6 +37,7 @@ mod chains;
 mod climb;
 mod crease_angles;
 mod crease_paths;
+mod crease_pieces;
 mod creases;
 mod describe;
 mod eigen;

@@ -152,7 +152,12 @@ impl<'s, 'a> Scout<'s, 'a> {
         if self.best.iter().flatten().any(proved) {
             return;
         }
-        let near: Vec<Vec<u32>> = self.best.iter().flatten().map(|h| h.pieces.clone()).collect();
+        let near: Vec<Vec<u32>> = self
+            .best
+            .iter()
+            .flatten()
+            .map(|h| h.pieces.clone())
+            .collect();
         for around in near.iter().filter(|pieces| pieces.len() >= NEAR_PIECES) {
             let mut look = Look::at(self.soil.view, around);
             for kind in [Kind::Cone, Kind::Torus] {
@@ -210,7 +215,9 @@ impl<'s, 'a> Scout<'s, 'a> {
             return true;
         }
         let around = look.pieces;
-        let Soil { view, tolerance, .. } = *self.soil;
+        let Soil {
+            view, tolerance, ..
+        } = *self.soil;
         let Some(sample) = look.sample(view) else {
             return true;
         };

@@ -62,7 +62,10 @@ pub(crate) fn search(view: View, open: &[bool], rung: usize, tolerance: f64) -> 
             .take(side_by_side)
             .collect();
         if batch.is_empty() {
-            found.extend(bends::tori(&mut soil(), &tried, &found));
+            // Only exact ones are believed for it.
+            if rung == 0 {
+                found.extend(bends::tori(&mut soil(), &tried, &found));
+            }
             return found;
         }
         if lanes.len() < batch.len() {
@@ -73,8 +76,7 @@ pub(crate) fn search(view: View, open: &[bool], rung: usize, tolerance: f64) -> 
             .zip(&mut lanes)
             .with_max_len(1)
             .map(|(&seed, soil)| {
-                Scout::new(soil, seed, &tried)
-                    .hypotheses(!state.amid_failure[seed as usize])
+                Scout::new(soil, seed, &tried).hypotheses(!state.amid_failure[seed as usize])
             })
             .collect();
         side_by_side = (side_by_side + 1).min(LANES);

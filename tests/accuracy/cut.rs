@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 use std::sync::Arc;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use rustix::time::{ClockId, clock_gettime};
 use seamline_ecs::Worker;
@@ -25,6 +25,8 @@ pub struct Cut<'a> {
     pub surfaces: Vec<Option<PatchSurface>>,
     /// Of all processors together, reading and welding not counted.
     pub seconds: f64,
+    /// From begin to end, the same.
+    pub elapsed: Duration,
 }
 
 impl<'a> Cut<'a> {
@@ -33,10 +35,11 @@ impl<'a> Cut<'a> {
     /// If the model's JSON does not read or a step fails.
     pub fn of(model: &'a Model, folder: &Path, worker: &mut Worker) -> Self {
         let truth = Truth::read(&folder.join(format!("{}.json", model.name)));
-        let before = processor_time();
+        let (before, begin) = (processor_time(), Instant::now());
         let cut = worker
             .segment(Arc::clone(&model.mesh))
             .expect("every step does its work");
+        let elapsed = begin.elapsed();
         let seconds = (processor_time() - before).as_secs_f64();
         let (mesh, labels, found) = (&model.mesh, &model.truth, &cut.face_patches);
         Self {
@@ -45,6 +48,7 @@ impl<'a> Cut<'a> {
             partners: partners(mesh, labels, found),
             surfaces: cut.patches.iter().map(|patch| patch.surface).collect(),
             seconds,
+            elapsed,
             model,
             truth,
         }

@@ -5,8 +5,9 @@
 //!
 //! 1. `pieces`: triangles in one plane become flat pieces; angles above 40 degrees between them are walls that
 //!    no surface crosses. Pieces of many vertices in more than two lines are planes beyond doubt (`certain`).
-//! 2. `search`: round each piece not yet explained (`scout`), surfaces are fitted to neighbourhoods (`around`, `guess`,
-//!    `refine`) and grown as far as they hold (`hypothesis`).
+//! 2. `search`: round each piece not yet explained (`scout`), surfaces are fitted to neighbourhoods (`around`, `look`)
+//!    from guesses (`guess`, `refine`, `freedom`) and grown as far as they hold (`grow`, `hypothesis`); cylinders of one
+//!    radius beside each other may be strips of one torus (`bends`).
 //! 3. `select`: the best proved goes first. Vertices along one ruling or one circle prove nothing, and a free form
 //!    comes near many surfaces: what is weak must be spoken for by its borders.
 //! 4. The same again with looser tolerances, for kernels that store approximations; small leftovers are taken in
@@ -16,6 +17,7 @@
 //! 6. `parts`: what no surface explains is united to free forms, and these are cut (`creases`) along chains of edges that
 //!    go straighter on than chance lets them (`chains`, `fans`), where the surface itself turns and not the tessellation
 //!    only (`crease_angles`), or where nothing else beside them is as straight. In noise, along paths (`crease_paths`).
+//!    Pieces too alike or too small are united again (`crease_pieces`).
 //! 7. `describe`: each surface is fitted once more to all its vertices, and what was designed equal comes out equal
 //!    (`snap`).
 //!

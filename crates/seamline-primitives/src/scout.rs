@@ -35,6 +35,7 @@ pub(crate) struct Scout<'s, 'a> {
     /// What was tried before, about other seeds.
     before: &'s Tried,
     tried: Tried,
+    fits: bool,
 }
 
 /// Neighbourhoods, by their hash, that were tried for a kind.
@@ -48,6 +49,7 @@ impl<'s, 'a> Scout<'s, 'a> {
             best: Default::default(),
             before,
             tried: Tried::new(),
+            fits: false,
         }
     }
 
@@ -166,26 +168,34 @@ impl<'s, 'a> Scout<'s, 'a> {
         }
     }
 
-    /// Tries the discs about a seed, the largest first. `None` if one proved to be of a surface, so that smaller
-    /// neighbourhoods can tell nothing more; else the midst of the discs.
+    /// Tries the discs about a seed, the smallest first: what does not fit a part does not fit the whole. `None` if one
+    /// proved to be of a surface, so that smaller neighbourhoods can tell nothing more; else the midst of the discs.
     fn on_discs(&mut self) -> Option<Vec<u32>> {
-        let mut disc = self.soil.around.disc(self.seed);
-        let midst = disc[..disc.len().min(MOST_IN_RING)].to_vec();
-        while disc.len() > MOST_IN_RING {
-            let step = disc.len().div_ceil(DISC_SAMPLE);
-            let sample: Vec<u32> = disc.iter().copied().step_by(step).collect();
+        let disc = self.soil.around.disc(self.seed);
+        let mut sizes = vec![disc.len()];
+        while sizes[0] > MOST_IN_RING * DISC_SHRINKS {
+            sizes.insert(0, sizes[0] / DISC_SHRINKS);
+        }
+        let mut kinds = Kind::CURVED.to_vec();
+        for size in sizes.into_iter().filter(|&size| size > MOST_IN_RING) {
+            let step = size.div_ceil(DISC_SAMPLE);
+            let sample: Vec<u32> = disc[..size].iter().copied().step_by(step).collect();
             let mut look = Look::at(self.soil.view, &sample);
-            for kind in Kind::CURVED {
+            let mut fitting = Vec::new();
+            for kind in kinds {
+                self.fits = false;
                 self.attempt(kind, &mut look);
-                let proved =
-                    |h: &Hypothesis| h.strong && h.exact && h.pieces.len() >= disc.len() / 2;
+                let proved = |h: &Hypothesis| h.strong && h.exact && h.pieces.len() >= size / 2;
                 if self.best[kind as usize - 1].as_ref().is_some_and(proved) {
                     return None;
                 }
+                if self.fits {
+                    fitting.push(kind);
+                }
             }
-            disc.truncate(disc.len() / DISC_SHRINKS);
+            kinds = fitting;
         }
-        Some(midst)
+        Some(disc[..disc.len().min(MOST_IN_RING)].to_vec())
     }
 
     /// Is more of this kind not to be had?
@@ -228,6 +238,7 @@ impl<'s, 'a> Scout<'s, 'a> {
             if fit.rms > tolerance || is_degenerate(&fit.surface) {
                 continue;
             }
+            self.fits = true;
             let slot = &mut self.best[kind as usize - 1];
             if slot.as_ref().is_some_and(|h| {
                 view.fits(self.seed, &fit.surface, h.sign, tolerance) && {

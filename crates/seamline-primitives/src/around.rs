@@ -122,6 +122,7 @@ impl<'a> Around<'a> {
                     .filter(|&p| {
                         self.open[p as usize] && pieces.normals[p as usize].dot(normal) >= STAR_COS
                     })
+                    .take(MOST_IN_RING)
                     .collect()
             })
             .filter(|star: &Vec<u32>| star.len() >= 3)

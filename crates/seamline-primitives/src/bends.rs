@@ -50,6 +50,9 @@ pub(crate) fn tori(soil: &mut Soil, before: &Tried, found: &[Hypothesis]) -> Vec
                 break;
             }
             let strips = chain(&beside, pair, most);
+            if most > STRIPS[0] && strips.len() == STRIPS[0] {
+                break;
+            }
             let mut pieces: Vec<u32> = strips
                 .iter()
                 .flat_map(|&strip| found[strip].pieces.iter().copied())
@@ -73,7 +76,7 @@ pub(crate) fn tori(soil: &mut Soil, before: &Tried, found: &[Hypothesis]) -> Vec
 fn chain(beside: &BTreeMap<usize, Vec<usize>>, pair: [usize; 2], most: usize) -> Vec<usize> {
     let mut strips = pair.to_vec();
     let mut at = 0;
-    while at < strips.len() {
+    while at < strips.len() && strips.len() < most {
         for &next in &beside[&strips[at]] {
             if strips.len() < most && !strips.contains(&next) {
                 strips.push(next);

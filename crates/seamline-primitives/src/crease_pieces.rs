@@ -19,7 +19,7 @@ const ROUNDING: f64 = 1e-9;
 
 impl Part<'_> {
     /// Pieces between the creases, those too alike united: each face with its piece, numbered from 0. Borders
-    /// `though_smooth` stand.
+    /// `though_smooth` count as turning enough; pieces too small are united over them all the same.
     pub fn flood(&self, creased: &HashSet<u32>, though_smooth: &HashSet<u32>) -> Vec<(u32, u32)> {
         let mut faces: Vec<u32> = self.edges.iter().flat_map(|&(_, faces)| faces).collect();
         faces.sort_unstable();
@@ -122,7 +122,13 @@ impl Pieces {
             let alike = f64::from_bits(mean) < (1.0 - ROUNDING) * self.least_turn;
             if alike || small(a) || small(b) {
                 sets.unite(a, b);
-                heap.extend(self.absorb(a, b));
+                let [more, less] = if self.beside[a as usize].len() >= self.beside[b as usize].len()
+                {
+                    [a, b]
+                } else {
+                    [b, a]
+                };
+                heap.extend(self.absorb(more, less));
             }
         }
         sets

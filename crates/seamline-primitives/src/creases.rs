@@ -11,10 +11,10 @@ use crate::crease_angles::CreaseAngles;
 use crate::parts::Form;
 use crate::pieces::Triangles;
 
-/// A part of fewer faces is left whole.
-const FEWEST_FACES: usize = 20;
+/// A part of fewer inner edges is left whole.
+const FEWEST_EDGES: usize = 20;
 
-/// Splits free forms along their creases. New parts get numbers after the present ones.
+/// Splits free forms along their creases. Pieces of what is cut get numbers after the present ones.
 pub(crate) fn split(
     positions: &[DVec3],
     topology: &Topology,
@@ -33,40 +33,74 @@ pub(crate) fn split(
         }
     }
     let mut next = forms.len() as u32;
-    for edges in inner.into_values() {
-        if edges.len() < FEWEST_FACES {
-            continue;
-        }
-        let angles = CreaseAngles {
-            positions,
-            topology,
-            triangles,
-            of_face,
-        };
-        let turns: HashMap<u32, f64> = edges
-            .par_iter()
-            .map(|&(edge, faces)| (edge, angles.at(edge, faces)))
-            .collect();
-        let mut sorted: Vec<f64> = turns.values().copied().collect();
-        sorted.sort_unstable_by(f64::total_cmp);
-        let median = sorted[sorted.len() / 2];
-        let part = Part {
-            positions,
-            topology,
-            triangles,
-            edges: &edges,
-            turns: &turns,
-            median,
-        };
-        let mut new = 0;
-        for (face, piece) in part.pieces(noise) {
-            if piece > 0 {
-                of_face[face as usize] = next + piece - 1;
-                new = new.max(piece);
+    let seen: &[u32] = of_face;
+    let cuts: Vec<Vec<(u32, u32)>> = inner
+        .into_par_iter()
+        .map(|(_, edges)| cut(positions, topology, triangles, seen, noise, &edges))
+        .collect();
+    for pieces in cuts {
+        let most = pieces.iter().map(|&(_, piece)| piece).max();
+        if let Some(most @ 1..) = most {
+            for (face, piece) in pieces {
+                of_face[face as usize] = next + piece;
             }
+            next += most + 1;
         }
-        next += new;
     }
+}
+
+/// Cuts one free form, of which the inner edges are given: the piece of each face, numbered from 0; none if nothing
+/// cuts it.
+fn cut(
+    positions: &[DVec3],
+    topology: &Topology,
+    triangles: &Triangles,
+    of_face: &[u32],
+    noise: f64,
+    edges: &[(u32, [u32; 2])],
+) -> Vec<(u32, u32)> {
+    if edges.len() < FEWEST_EDGES {
+        return Vec::new();
+    }
+    let curves = Chains::of(positions, topology, edges).curves();
+    if curves.is_empty() && noise == 0.0 {
+        return Vec::new();
+    }
+    let angles = CreaseAngles {
+        positions,
+        topology,
+        triangles,
+        of_face,
+    };
+    let turns: HashMap<u32, f64> = edges
+        .par_iter()
+        .map(|&(edge, faces)| (edge, angles.at(edge, faces)))
+        .collect();
+    let mut sorted: Vec<f64> = turns.values().copied().collect();
+    sorted.sort_unstable_by(f64::total_cmp);
+    let part = Part {
+        positions,
+        topology,
+        triangles,
+        edges,
+        turns: &turns,
+        median: sorted[sorted.len() / 2],
+    };
+    let mut creased = HashSet::new();
+    let mut though_smooth = HashSet::new();
+    for curve in curves {
+        if curve.though_smooth {
+            though_smooth.extend(curve.edges.iter().copied());
+        }
+        creased.extend(curve.edges);
+    }
+    if noise > 0.0 {
+        creased.extend(part.creased_by_turn());
+    }
+    if creased.is_empty() {
+        return Vec::new();
+    }
+    part.flood(&creased, &though_smooth)
 }
 
 /// One free form.
@@ -80,25 +114,4 @@ pub(crate) struct Part<'a> {
     pub turns: &'a HashMap<u32, f64>,
     /// Median turn in degrees.
     pub median: f64,
-}
-
-impl Part<'_> {
-    /// The piece of each face, numbered from 0.
-    fn pieces(&self, noise: f64) -> Vec<(u32, u32)> {
-        let mut creased = HashSet::new();
-        let mut though_smooth = HashSet::new();
-        for curve in Chains::of(self.positions, self.topology, self.edges).curves() {
-            if curve.though_smooth {
-                though_smooth.extend(curve.edges.iter().copied());
-            }
-            creased.extend(curve.edges);
-        }
-        if noise > 0.0 {
-            creased.extend(self.creased_by_turn());
-        }
-        if creased.is_empty() {
-            return Vec::new();
-        }
-        self.flood(&creased, &though_smooth)
-    }
 }

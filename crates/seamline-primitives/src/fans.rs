@@ -16,6 +16,10 @@ pub(crate) fn fan(
     let mut edge = *edges.first()?;
     let mut whole = 0.0;
     for _ in edges {
+        // Two fans meet in the vertex.
+        if fan.first().is_some_and(|first| first.0 == edge) {
+            return None;
+        }
         fan.push((edge, whole));
         let far = topology.far_end(edge, vertex);
         let (face, across) = topology
@@ -46,7 +50,10 @@ pub(crate) fn fan(
 pub(crate) fn straightest(fan: &[(u32, f64)]) -> Vec<(u32, u32, f64)> {
     let turn = |i: usize, j: usize| (fan[j].1 - fan[i].1).rem_euclid(360.0) - 180.0;
     let best = |i: usize| {
-        let others = (0..fan.len()).filter(|&j| j != i);
+        let across = (fan[i].1 + 180.0) % 360.0;
+        let after = fan.partition_point(|edge| edge.1 < across);
+        let either = [after % fan.len(), (after + fan.len() - 1) % fan.len()];
+        let others = either.into_iter().filter(|&j| j != i);
         others.min_by(|&a, &b| turn(i, a).abs().total_cmp(&turn(i, b).abs()))
     };
     let best: Vec<Option<usize>> = (0..fan.len()).map(best).collect();

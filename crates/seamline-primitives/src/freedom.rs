@@ -69,7 +69,7 @@ impl Seen {
     }
 }
 
-/// One over a length, none of nothing.
+/// One over a length; of none a number so large that only its product with nothing is one.
 fn reciprocal(length: f64x4) -> f64x4 {
     f64x4::ONE / length.max(f64x4::splat(f64::MIN_POSITIVE))
 }

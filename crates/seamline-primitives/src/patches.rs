@@ -15,18 +15,23 @@ pub(crate) struct Patches {
 }
 
 impl Patches {
-    /// Distinct vertices of each patch, a few of many, from all over it.
-    pub fn points(&self, positions: &[DVec3], topology: &Topology) -> Vec<Vec<DVec3>> {
-        let mut vertices = vec![Vec::new(); self.surfaces.len()];
+    /// Distinct vertices of each patch.
+    pub fn vertices(&self, topology: &Topology) -> Vec<Vec<u32>> {
+        let mut vertices: Vec<Vec<u32>> = vec![Vec::new(); self.surfaces.len()];
         for (face, &patch) in self.of_face.iter().enumerate() {
             vertices[patch as usize].extend(topology.triangles[face]);
         }
-        let points = vertices.into_iter().map(|mut all: Vec<u32>| {
+        for all in &mut vertices {
             all.sort_unstable();
             all.dedup();
-            a_few(&all).map(|&v| positions[v as usize]).collect()
-        });
-        points.collect()
+        }
+        vertices
+    }
+
+    /// Positions of the same, a few of many, from all over each patch.
+    pub fn points(&self, positions: &[DVec3], topology: &Topology) -> Vec<Vec<DVec3>> {
+        let at = |all: &Vec<u32>| a_few(all).map(|&v| positions[v as usize]).collect();
+        self.vertices(topology).iter().map(at).collect()
     }
 
     /// The same with a number for each connected part of a patch.

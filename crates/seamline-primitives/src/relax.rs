@@ -6,6 +6,7 @@
 //! deviations of the noise, against the length of boundary it makes.
 
 use glam::DVec3;
+use rayon::prelude::*;
 
 use crate::Fitted;
 use crate::ground::Ground;
@@ -46,11 +47,12 @@ pub(crate) fn relax(ground: Ground, patches: &mut Patches) {
 /// Fits the surface of each patch to its vertices anew, where that brings them nearer.
 fn fit(ground: Ground, patches: &mut Patches) {
     let points = patches.points(ground.positions, ground.topology);
-    for (fitted, points) in patches.surfaces.iter_mut().zip(&points) {
-        let Some(own) = fitted else { continue };
+    let all = patches.surfaces.par_iter_mut().zip(&points);
+    all.for_each(|(fitted, points)| {
+        let Some(own) = fitted else { return };
         if points.is_empty() {
             *fitted = None;
-            continue;
+            return;
         }
         let now = own.surface.rms(points);
         if points.len() > own.surface.kind.degrees_of_freedom()
@@ -60,15 +62,16 @@ fn fit(ground: Ground, patches: &mut Patches) {
             own.surface = fit.surface;
         }
         weigh(ground, own, points);
-    }
+    });
 }
 
 /// Tells how well the surface of each patch is proved by the vertices the patch has now.
 pub(crate) fn weigh_all(ground: Ground, patches: &mut Patches) {
-    let points = patches.points(ground.positions, ground.topology);
-    for (fitted, points) in patches.surfaces.iter_mut().zip(&points) {
+    let vertices = patches.vertices(ground.topology);
+    for (fitted, vertices) in patches.surfaces.iter_mut().zip(&vertices) {
         if let Some(own) = fitted {
-            weigh(ground, own, points);
+            let points = vertices.iter().map(|&v| ground.positions[v as usize]);
+            weigh(ground, own, &points.collect::<Vec<DVec3>>());
         }
     }
 }

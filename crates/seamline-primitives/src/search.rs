@@ -24,7 +24,7 @@ const LANES: usize = 8;
 /// All hypotheses worth weighing on the pieces that are `open`, in the order their seeds come: from the largest
 /// piece down.
 ///
-/// Seeds are looked at side by side, one more each time, and half as many where one of them turned out to be on
+/// Seeds are looked at side by side, one more each time, and half as many for each that turned out to be on
 /// what another had found. How many depends on the seeds alone, so that results do not depend on the number of
 /// threads.
 pub(crate) fn search(view: View, open: &[bool], rung: usize, tolerance: f64) -> Vec<Hypothesis> {
@@ -81,10 +81,10 @@ pub(crate) fn search(view: View, open: &[bool], rung: usize, tolerance: f64) -> 
             .collect();
         side_by_side = (side_by_side + 1).min(LANES);
         for (seed, mut about) in batch.into_iter().zip(about) {
-            tried.extend(about.tried.drain());
             if state.covered[seed as usize] {
                 side_by_side = side_by_side.div_ceil(2);
             } else {
+                tried.extend(about.tried.drain());
                 state.note(&around, seed, &about);
                 found.extend(about.hypotheses);
             }

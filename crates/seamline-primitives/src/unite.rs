@@ -36,7 +36,7 @@ pub(crate) fn unite(ground: Ground, patches: &mut Patches) {
         if a == b {
             continue;
         }
-        let (large, small) = if points[a as usize].len() >= points[b as usize].len() {
+        let (large, small) = if faces[a as usize].len() >= faces[b as usize].len() {
             (a, b)
         } else {
             (b, a)
@@ -54,13 +54,10 @@ pub(crate) fn unite(ground: Ground, patches: &mut Patches) {
         }
         sets.unite(large, small);
         let both = [of_large.as_slice(), of_small.as_slice()].concat();
-        let [kept, gone] = if sets.first(large) == large {
-            [large, small]
-        } else {
-            [small, large]
-        };
-        let more = std::mem::take(&mut faces[gone as usize]);
-        faces[kept as usize].extend(more);
+        let kept = sets.first(large);
+        let less = std::mem::take(&mut faces[small as usize]);
+        faces[large as usize].extend(less);
+        faces.swap(kept as usize, large as usize);
         points[kept as usize] = a_few(&both).copied().collect();
         patches.surfaces[kept as usize] = Some(surface);
     }

@@ -166,35 +166,43 @@ impl<'a> Chains<'a> {
                 edges: vec![edge],
                 ..Chain::default()
             };
-            self.follow((edge, b), &mut seen, stops, &mut chain);
+            let end = self.follow((edge, b), &mut seen, stops, &mut chain);
             if !chain.closed {
                 chain.edges.reverse();
                 chain.turns = chain.turns.iter().rev().map(|turn| -turn).collect();
-                self.follow((edge, a), &mut seen, stops, &mut chain);
+                let begin = self.follow((edge, a), &mut seen, stops, &mut chain);
+                // A ring that a seam crosses is still one.
+                chain.closed = end == begin;
             }
             all.push(chain);
         }
         all
     }
 
-    /// Goes on from the last edge of a chain as long as it goes straight on.
-    fn follow(&self, from: Step, seen: &mut HashSet<u32>, stops: &HashSet<u32>, chain: &mut Chain) {
+    /// Goes on from the last edge of a chain as long as it goes straight on. Gives the vertex it ends at.
+    fn follow(
+        &self,
+        from: Step,
+        seen: &mut HashSet<u32>,
+        stops: &HashSet<u32>,
+        chain: &mut Chain,
+    ) -> u32 {
         let (mut edge, mut vertex) = from;
         loop {
             if stops.contains(&vertex) || self.is_at_border(vertex) {
                 chain.ends += 1;
-                return;
+                return vertex;
             }
             let Some(&(next, turn)) = self.goes_on.get(&(edge, vertex)) else {
-                return;
+                return vertex;
             };
             if next == from.0 && turn.abs() <= MOST_TURN_DEG {
                 chain.turns.push(turn);
                 chain.closed = true;
-                return;
+                return vertex;
             }
             if turn.abs() > MOST_TURN_DEG || !seen.insert(next) {
-                return;
+                return vertex;
             }
             chain.edges.push(next);
             chain.turns.push(turn);

@@ -43,6 +43,8 @@ pub(crate) struct Curve {
     pub edges: Vec<u32>,
     /// Does it count though the surface does not turn there?
     pub though_smooth: bool,
+    /// Does it go round a tube? Rings of a tessellation do, whatever they are.
+    pub closed: bool,
 }
 
 /// A chain of edges each of which goes straight on with the next.
@@ -130,6 +132,7 @@ impl<'a> Chains<'a> {
                     curves.push(Curve {
                         edges: chain.edges,
                         though_smooth,
+                        closed: chain.closed,
                     });
                 }
             }

@@ -56,7 +56,7 @@ impl Part<'_> {
     }
 
     /// Mean turn of a border, in degrees, below which the pieces beside it are one.
-    fn least_turn(&self) -> f64 {
+    pub fn least_turn(&self) -> f64 {
         BORDER_DEG.max(BORDER_MEDIANS * self.median)
     }
 }

@@ -13,6 +13,10 @@ use crate::pieces::Triangles;
 
 /// A part of fewer inner edges is left whole.
 const FEWEST_EDGES: usize = 20;
+/// A ring round a tube turns by so many times what other borders turn by at least: the steps of a tessellation run
+/// round tubes in rings, too. With 1 bottles, bulbs and vases come out in bands (ARI .005 less over 229 meshes), with 3
+/// spouts and knobs lose borders (.001 less over 161).
+const RING_TURNS: f64 = 2.0;
 
 /// Splits free forms along their creases. Pieces of what is cut get numbers after the present ones.
 pub(crate) fn split(
@@ -89,6 +93,9 @@ fn cut(
     let mut creased = HashSet::new();
     let mut though_smooth = HashSet::new();
     for curve in curves {
+        if curve.closed && part.mean_turn(&curve.edges) < RING_TURNS * part.least_turn() {
+            continue;
+        }
         if curve.though_smooth {
             though_smooth.extend(curve.edges.iter().copied());
         }
@@ -114,4 +121,18 @@ pub(crate) struct Part<'a> {
     pub turns: &'a HashMap<u32, f64>,
     /// Median turn in degrees.
     pub median: f64,
+}
+
+impl Part<'_> {
+    /// Mean turn along edges in degrees, by length.
+    fn mean_turn(&self, edges: &[u32]) -> f64 {
+        let (mut whole, mut turned) = (0.0, 0.0);
+        for &edge in edges {
+            let [p, q] =
+                self.topology.edge_vertices[edge as usize].map(|v| self.positions[v as usize]);
+            whole += p.distance(q);
+            turned += p.distance(q) * self.turns[&edge];
+        }
+        turned / f64::max(whole, f64::MIN_POSITIVE)
+    }
 }

@@ -11,8 +11,8 @@ use crate::hypothesis::{Hypothesis, View};
 use crate::scout::{About, COVERS, Scout, Tried};
 
 /// After so many seeds in vain one more piece about each further one is none: a large free form takes as many
-/// seeds as the root of its pieces. With 8 small patches are passed over (`smooth_cube-fine` of the bench has 29 for 26), 32
-/// finds no more.
+/// seeds as the root of its pieces. With 8 small patches are passed over (`smooth_cube-fine` of the bench has 29 for
+/// 26), 32 finds no more.
 const IN_A_ROW: usize = 16;
 /// A surface looked for on a looser rung has many pieces, so that some seeds among them suffice: about so many
 /// for all that is open.

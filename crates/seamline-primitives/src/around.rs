@@ -1,5 +1,6 @@
 //! Neighbourhoods of a flat piece: what a surface is fitted to first.
 
+use crate::few::a_few;
 use crate::hypothesis::View;
 
 /// Least cosine between the normals of a neighbourhood and of the piece it surrounds.
@@ -14,6 +15,8 @@ const MOST_IN_DISC: usize = 16000;
 pub(crate) const DISC_SHRINKS: usize = 4;
 /// Most neighbourhoods of three pieces tried for one seed.
 const MOST_TRIPLES: usize = 12;
+/// Most vertices of a seed that are looked round.
+const MOST_STARS: usize = 8;
 /// Pieces of a strip.
 pub(crate) const STRIP: usize = 8;
 
@@ -113,9 +116,7 @@ impl<'a> Around<'a> {
         let pieces = self.view.pieces;
         let vertices = pieces.vertices.row(seed);
         let normal = pieces.normals[seed as usize];
-        let mut stars: Vec<Vec<u32>> = vertices
-            .iter()
-            .step_by(vertices.len().div_ceil(8))
+        let mut stars: Vec<Vec<u32>> = a_few(vertices, MOST_STARS)
             .map(|&vertex| {
                 let round = pieces.of_vertex.row(vertex).iter().copied();
                 round

@@ -1,7 +1,5 @@
 //! Regions of surfaces, rung by rung of a ladder of tolerances.
 
-use seamline_mesh::Topology;
-
 use crate::ground::Ground;
 use crate::hypothesis::{Hypothesis, View};
 use crate::pieces::{NONE, Pieces};
@@ -49,7 +47,7 @@ pub(crate) fn climb(ground: Ground, ladder: [f64; 3]) -> (Pieces, Regions) {
             Vec::new()
         };
         let view = ground.seen(&pieces);
-        step(view, ground.topology, &mut regions, planes, rung, tolerance);
+        step(view, &mut regions, planes, rung, tolerance);
         absorb::absorb(view, &mut regions, tolerance);
         if ground.noise > 0.0 {
             tiles::dissolve(view, &mut regions);
@@ -127,18 +125,11 @@ pub(crate) fn least_evidence(rung: usize, kind: Kind) -> i64 {
 }
 
 /// One rung of the ladder of tolerances.
-fn step(
-    view: View,
-    topology: &Topology,
-    regions: &mut Regions,
-    planes: Vec<Hypothesis>,
-    rung: usize,
-    tolerance: f64,
-) {
+fn step(view: View, regions: &mut Regions, planes: Vec<Hypothesis>, rung: usize, tolerance: f64) {
     let freed = if rung == 0 {
         Vec::new()
     } else {
-        let trusted = trust::trusted(view, topology, regions);
+        let trusted = trust::trusted(view, regions);
         let doubtful: Vec<u32> = regions
             .alive()
             .filter(|&r| !trusted[r as usize] && regions.all[r as usize].evidence < STANDS)
@@ -159,7 +150,7 @@ fn step(
         for _ in 0..TURNS {
             let before = regions.all.len();
             rest = select(view, regions, rest, tolerance, |regions, h| {
-                borders_speak_for(view, topology, regions, h)
+                borders_speak_for(view, regions, h)
             });
             if regions.all.len() == before {
                 break;

@@ -3,10 +3,9 @@
 use std::f64::consts::PI;
 
 use glam::DVec3;
-use seamline_mesh::Topology;
 
+use crate::ground::Ground;
 use crate::linear::solve;
-use crate::pieces::Triangles;
 
 /// How far a side reaches from its edge, in steps over edges.
 const STEPS: usize = 3;
@@ -28,9 +27,7 @@ const FLAT_DEG: f64 = 1e-3;
 /// near the edge, and the turn is the angle between the two fields' slopes there. Inside a smooth surface
 /// it is near zero however coarse the steps; at a crease it is the crease.
 pub(crate) struct CreaseAngles<'a> {
-    pub positions: &'a [DVec3],
-    pub topology: &'a Topology,
-    pub triangles: &'a Triangles,
+    pub ground: Ground<'a>,
     /// The part of each face: a side does not leave it.
     pub of_face: &'a [u32],
 }
@@ -38,12 +35,12 @@ pub(crate) struct CreaseAngles<'a> {
 impl CreaseAngles<'_> {
     /// Turn at an edge between two faces of one part, in degrees, not negative.
     pub fn at(&self, edge: u32, faces: [u32; 2]) -> f64 {
-        let normals = faces.map(|f| self.triangles.normals[f as usize]);
+        let normals = faces.map(|f| self.ground.triangles.normals[f as usize]);
         let dihedral = normals[0].angle_between(normals[1]) * 180.0 / PI;
         if dihedral.is_nan() || dihedral <= FLAT_DEG {
             return 0.0;
         }
-        let [a, b] = self.topology.edge_vertices[edge as usize].map(|v| self.positions[v as usize]);
+        let [a, b] = self.ground.ends(edge);
         let z = (normals[0] + normals[1]).normalize_or_zero();
         let x = (b - a).normalize_or_zero();
         let frame = Frame {
@@ -61,18 +58,18 @@ impl CreaseAngles<'_> {
 
     /// Slope across the edge of the height field on the side of `face`.
     fn slope(&self, face: u32, frame: &Frame) -> Option<f64> {
-        let centroid = frame.local(self.triangles.centroids[face as usize]);
+        let centroid = frame.local(self.ground.triangles.centroids[face as usize]);
         let side = centroid.y.signum();
         let height = 3.0 * centroid.y.abs();
         let vertices = self.side(face, |x| frame.local(x).y * side >= -BEHIND * height);
         if vertices.len() < FEWEST_VERTICES {
-            let n = self.triangles.normals[face as usize];
+            let n = self.ground.triangles.normals[face as usize];
             let up = n.dot(frame.z);
             return (up > 1e-6).then(|| -n.dot(frame.y) / up);
         }
         let local: Vec<DVec3> = vertices
             .iter()
-            .map(|&v| frame.local(self.positions[v as usize]))
+            .map(|&v| frame.local(self.ground.positions[v as usize]))
             .collect();
         let radius = local
             .iter()
@@ -101,24 +98,24 @@ impl CreaseAngles<'_> {
     /// Vertices of the faces of a side, nearest first by steps.
     fn side(&self, face: u32, in_front: impl Fn(DVec3) -> bool) -> Vec<u32> {
         let part = self.of_face[face as usize];
-        let normal = self.triangles.normals[face as usize];
+        let normal = self.ground.triangles.normals[face as usize];
         let mut faces = vec![face];
-        let mut vertices = self.topology.triangles[face as usize].to_vec();
+        let mut vertices = self.ground.topology.triangles[face as usize].to_vec();
         let mut from = 0;
         for _ in 0..STEPS {
             let to = faces.len();
             for i in from..to {
-                for edge in self.topology.face_edges[faces[i] as usize] {
-                    let Some(across) = self.topology.neighbour(faces[i], edge) else {
+                for edge in self.ground.topology.face_edges[faces[i] as usize] {
+                    let Some(across) = self.ground.topology.neighbour(faces[i], edge) else {
                         continue;
                     };
-                    let corners = self.topology.triangles[across as usize];
+                    let corners = self.ground.topology.triangles[across as usize];
                     let belongs = self.of_face[across as usize] == part
-                        && self.triangles.normals[across as usize].dot(normal) >= SIDE_COS
+                        && self.ground.triangles.normals[across as usize].dot(normal) >= SIDE_COS
                         && !faces.contains(&across)
                         && corners
                             .iter()
-                            .all(|&v| in_front(self.positions[v as usize]));
+                            .all(|&v| in_front(self.ground.positions[v as usize]));
                     if !belongs {
                         continue;
                     }

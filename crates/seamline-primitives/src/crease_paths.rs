@@ -45,20 +45,26 @@ impl Part<'_> {
     }
 
     fn inner_edges_at(&self, vertex: u32) -> impl Iterator<Item = u32> {
-        let edges = self.topology.vertex_edges.row(vertex as usize).iter();
+        let edges = self
+            .ground
+            .topology
+            .vertex_edges
+            .row(vertex as usize)
+            .iter();
         edges.copied().filter(|edge| self.turns.contains_key(edge))
     }
 
     /// Does a vertex lie on the part's border?
     fn on_border(&self, vertex: u32) -> bool {
-        self.inner_edges_at(vertex).count() < self.topology.vertex_edges.row(vertex as usize).len()
+        self.inner_edges_at(vertex).count()
+            < self.ground.topology.vertex_edges.row(vertex as usize).len()
     }
 
     /// Degrees between going along `from` towards `vertex` and going on along `to`.
     fn turning(&self, from: u32, vertex: u32, to: u32) -> f64 {
-        let at = |v: u32| self.positions[v as usize];
-        let before = at(vertex) - at(self.topology.far_end(from, vertex));
-        let after = at(self.topology.far_end(to, vertex)) - at(vertex);
+        let at = |v: u32| self.ground.positions[v as usize];
+        let before = at(vertex) - at(self.ground.topology.far_end(from, vertex));
+        let after = at(self.ground.topology.far_end(to, vertex)) - at(vertex);
         before.angle_between(after).to_degrees()
     }
 
@@ -66,7 +72,7 @@ impl Part<'_> {
     fn open_ends(&self, creased: &HashSet<u32>) -> Vec<(u32, u32)> {
         let mut at: BTreeMap<u32, Vec<u32>> = BTreeMap::new();
         for &edge in creased {
-            for vertex in self.topology.edge_vertices[edge as usize] {
+            for vertex in self.ground.topology.edge_vertices[edge as usize] {
                 at.entry(vertex).or_default().push(edge);
             }
         }
@@ -88,7 +94,7 @@ impl Part<'_> {
                 if !creased.insert(next) {
                     break;
                 }
-                vertex = self.topology.far_end(next, vertex);
+                vertex = self.ground.topology.far_end(next, vertex);
                 edge = next;
                 let meets = self
                     .inner_edges_at(vertex)
@@ -109,7 +115,7 @@ impl Part<'_> {
         let mut first_at: HashMap<u32, u32> = HashMap::new();
         let mut sets = Sets::new(edges.len());
         for (i, &edge) in edges.iter().enumerate() {
-            for vertex in self.topology.edge_vertices[edge as usize] {
+            for vertex in self.ground.topology.edge_vertices[edge as usize] {
                 let first = *first_at.entry(vertex).or_insert(i as u32);
                 sets.unite(first, i as u32);
             }
@@ -164,7 +170,7 @@ impl Part<'_> {
                 }
                 let step = (10.0 - 18.0 * self.turns[&next] / self.crease_deg()).max(1.0);
                 let total = cost + ((step + 2.0 * turning) * 1000.0) as u64;
-                let to = (next, self.topology.far_end(next, vertex));
+                let to = (next, self.ground.topology.far_end(next, vertex));
                 if total <= (MOST_COST * 1000.0) as u64
                     && came.get(&to).is_none_or(|&(known, _)| total < known)
                 {
@@ -179,11 +185,11 @@ impl Part<'_> {
     /// Vertices of the crease that holds an edge.
     fn crease_vertices(&self, edge: u32, creased: &HashSet<u32>) -> HashSet<u32> {
         let mut vertices = HashSet::new();
-        let mut open: Vec<u32> = self.topology.edge_vertices[edge as usize].to_vec();
+        let mut open: Vec<u32> = self.ground.topology.edge_vertices[edge as usize].to_vec();
         while let Some(vertex) = open.pop() {
             if vertices.insert(vertex) {
                 let on = self.inner_edges_at(vertex).filter(|e| creased.contains(e));
-                open.extend(on.map(|e| self.topology.far_end(e, vertex)));
+                open.extend(on.map(|e| self.ground.topology.far_end(e, vertex)));
             }
         }
         vertices

@@ -36,17 +36,15 @@ impl Part<'_> {
         let mut pieces = Pieces::of(count, self.least_turn());
         for (&face, &piece) in faces.iter().zip(&piece_of) {
             let size = &mut pieces.sizes[piece as usize];
-            size.area += self.triangles.areas[face as usize];
+            size.area += self.ground.triangles.areas[face as usize];
             size.faces += 1;
         }
         for (&(edge, _), rows) in self.edges.iter().zip(&rows) {
             let [a, b] = rows.map(|row| piece_of[row]);
             if a != b {
-                let [p, q] =
-                    self.topology.edge_vertices[edge as usize].map(|v| self.positions[v as usize]);
                 let stands = though_smooth.contains(&edge);
                 let least = if stands { self.least_turn() } else { 0.0 };
-                let length = p.distance(q);
+                let length = self.ground.edge_length(edge);
                 pieces.lengthen([a, b], [length, length * self.turns[&edge].max(least)]);
             }
         }

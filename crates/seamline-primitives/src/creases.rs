@@ -2,14 +2,12 @@
 
 use std::collections::{BTreeMap, HashMap, HashSet};
 
-use glam::DVec3;
 use rayon::prelude::*;
-use seamline_mesh::Topology;
 
 use crate::chains::Chains;
 use crate::crease_angles::CreaseAngles;
+use crate::ground::Ground;
 use crate::parts::Form;
-use crate::pieces::Triangles;
 
 /// A part of fewer inner edges is left whole.
 const FEWEST_EDGES: usize = 20;
@@ -19,14 +17,8 @@ const FEWEST_EDGES: usize = 20;
 const RING_TURNS: f64 = 2.0;
 
 /// Splits free forms along their creases. Pieces of what is cut get numbers after the present ones.
-pub(crate) fn split(
-    positions: &[DVec3],
-    topology: &Topology,
-    triangles: &Triangles,
-    forms: &[Form],
-    noise: f64,
-    of_face: &mut [u32],
-) {
+pub(crate) fn split(ground: Ground, forms: &[Form], of_face: &mut [u32]) {
+    let topology = ground.topology;
     let mut inner: BTreeMap<u32, Vec<(u32, [u32; 2])>> = BTreeMap::new();
     for edge in 0..topology.edge_faces.len() {
         if let Some(faces) = topology.face_pair(edge) {
@@ -40,7 +32,7 @@ pub(crate) fn split(
     let seen: &[u32] = of_face;
     let cuts: Vec<Vec<(u32, u32)>> = inner
         .into_par_iter()
-        .map(|(_, edges)| cut(positions, topology, triangles, seen, noise, &edges))
+        .map(|(_, edges)| cut(ground, seen, &edges))
         .collect();
     for pieces in cuts {
         let most = pieces.iter().map(|&(_, piece)| piece).max();
@@ -55,27 +47,15 @@ pub(crate) fn split(
 
 /// Cuts one free form, of which the inner edges are given: the piece of each face, numbered from 0; none if nothing
 /// cuts it.
-fn cut(
-    positions: &[DVec3],
-    topology: &Topology,
-    triangles: &Triangles,
-    of_face: &[u32],
-    noise: f64,
-    edges: &[(u32, [u32; 2])],
-) -> Vec<(u32, u32)> {
+fn cut(ground: Ground, of_face: &[u32], edges: &[(u32, [u32; 2])]) -> Vec<(u32, u32)> {
     if edges.len() < FEWEST_EDGES {
         return Vec::new();
     }
-    let curves = Chains::of(positions, topology, edges).curves();
-    if curves.is_empty() && noise == 0.0 {
+    let curves = Chains::of(ground.positions, ground.topology, edges).curves();
+    if curves.is_empty() && ground.noise == 0.0 {
         return Vec::new();
     }
-    let angles = CreaseAngles {
-        positions,
-        topology,
-        triangles,
-        of_face,
-    };
+    let angles = CreaseAngles { ground, of_face };
     let turns: HashMap<u32, f64> = edges
         .par_iter()
         .map(|&(edge, faces)| (edge, angles.at(edge, faces)))
@@ -83,9 +63,7 @@ fn cut(
     let mut sorted: Vec<f64> = turns.values().copied().collect();
     sorted.sort_unstable_by(f64::total_cmp);
     let part = Part {
-        positions,
-        topology,
-        triangles,
+        ground,
         edges,
         turns: &turns,
         median: sorted[sorted.len() / 2],
@@ -101,7 +79,7 @@ fn cut(
         }
         creased.extend(curve.edges);
     }
-    if noise > 0.0 {
+    if ground.noise > 0.0 {
         creased.extend(part.creased_by_turn());
     }
     if creased.is_empty() {
@@ -112,9 +90,7 @@ fn cut(
 
 /// One free form.
 pub(crate) struct Part<'a> {
-    pub positions: &'a [DVec3],
-    pub topology: &'a Topology,
-    pub triangles: &'a Triangles,
+    pub ground: Ground<'a>,
     /// Its inner edges, with their faces.
     pub edges: &'a [(u32, [u32; 2])],
     /// Turn of each inner edge in degrees.
@@ -128,10 +104,9 @@ impl Part<'_> {
     fn mean_turn(&self, edges: &[u32]) -> f64 {
         let (mut whole, mut turned) = (0.0, 0.0);
         for &edge in edges {
-            let [p, q] =
-                self.topology.edge_vertices[edge as usize].map(|v| self.positions[v as usize]);
-            whole += p.distance(q);
-            turned += p.distance(q) * self.turns[&edge];
+            let length = self.ground.edge_length(edge);
+            whole += length;
+            turned += length * self.turns[&edge];
         }
         turned / f64::max(whole, f64::MIN_POSITIVE)
     }

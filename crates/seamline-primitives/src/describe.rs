@@ -4,6 +4,7 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use crate::Fitted;
+use crate::few::a_few;
 use crate::hypothesis::{Hypothesis, View};
 use crate::parts::{Form, Parts};
 use crate::refine::refine_patiently;
@@ -49,7 +50,12 @@ pub(crate) fn surfaces(
 fn plane(view: View, piece: u32) -> Fitted {
     fitted(
         view,
-        &view.weigh(view.plane_of(piece), 1.0, vec![piece], view.precision),
+        &view.weigh(
+            view.plane_of(piece),
+            1.0,
+            vec![piece],
+            view.ground.precision,
+        ),
     )
 }
 
@@ -57,13 +63,9 @@ fn fitted(view: View, region: &Hypothesis) -> Fitted {
     let vertices = view.vertices_of(&region.pieces);
     let points: Vec<DVec3> = vertices
         .iter()
-        .map(|&v| view.positions[v as usize])
+        .map(|&v| view.ground.positions[v as usize])
         .collect();
-    let few: Vec<DVec3> = points
-        .iter()
-        .copied()
-        .step_by(points.len().div_ceil(MOST_POINTS))
-        .collect();
+    let few: Vec<DVec3> = a_few(&points, MOST_POINTS).copied().collect();
     let rms = |surface: &Surface| surface.rms(&points);
     let again = refine_patiently(region.surface, &few, 0.0).map(|fit| fit.surface);
     let mut surface = again
@@ -76,7 +78,7 @@ fn fitted(view: View, region: &Hypothesis) -> Fitted {
             b: 0.0,
             ..surface
         };
-        let explains = |s: &Surface| rms(s) <= view.precision.max(AS_WELL * rms(&surface));
+        let explains = |s: &Surface| rms(s) <= view.ground.precision.max(AS_WELL * rms(&surface));
         surface = refine_patiently(straight, &few, 0.0)
             .map(|fit| fit.surface)
             .filter(explains)
@@ -87,7 +89,7 @@ fn fitted(view: View, region: &Hypothesis) -> Fitted {
         surface: surface.with_positive_radii(),
         convex: region.sign > 0.0,
         residual,
-        exact: residual <= view.precision,
+        exact: residual <= view.ground.precision,
         evidence: region.evidence.max(0) as u32,
     }
 }

@@ -272,6 +272,7 @@ mod tests {
     const STEP: f64 = 1e-6;
 
     fn holds<const N: usize, F: Freedom<N>>(surface: &Surface, x: DVec3) {
+        assert_eq!(N, surface.kind.degrees_of_freedom());
         let frame = Frame::of(surface);
         let (distances, row) = F::at(surface).distances(frame.seen(x.to_array().map(f64x4::splat)));
         let distance = distances.to_array()[0];

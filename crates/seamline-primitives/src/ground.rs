@@ -27,10 +27,7 @@ impl<'a> Ground<'a> {
     /// The same, cut into pieces.
     pub fn seen(self, pieces: &'a Pieces) -> View<'a> {
         View {
-            precision: self.precision,
-            noise: self.noise,
-            positions: self.positions,
-            triangles: self.triangles,
+            ground: self,
             pieces,
         }
     }
@@ -42,8 +39,13 @@ impl<'a> Ground<'a> {
         (LEANS * self.noise / height).min(PI)
     }
 
+    /// Where the two ends of an edge are.
+    pub fn ends(self, edge: u32) -> [DVec3; 2] {
+        self.topology.edge_vertices[edge as usize].map(|v| self.positions[v as usize])
+    }
+
     pub fn edge_length(self, edge: u32) -> f64 {
-        let [p, q] = self.topology.edge_vertices[edge as usize].map(|v| self.positions[v as usize]);
+        let [p, q] = self.ends(edge);
         p.distance(q)
     }
 }

@@ -90,10 +90,11 @@ impl Soil<'_> {
         }
         // Most vertices of a piece are known from those before it.
         let on_it = &mut self.on_it;
-        on_it.begin(view.positions.len());
+        on_it.begin(view.ground.positions.len());
         let mut lies = |v: u32| {
             on_it.holds(v)
-                || surface.distance(view.positions[v as usize]).abs() <= tolerance && on_it.mark(v)
+                || surface.distance(view.ground.positions[v as usize]).abs() <= tolerance
+                    && on_it.mark(v)
         };
         self.around.marks.begin(view.pieces.count());
         self.around.marks.mark(seed);

@@ -5,8 +5,10 @@ use std::f64::consts::PI;
 
 use glam::DVec3;
 
+use crate::few::a_few;
+use crate::ground::Ground;
 use crate::guess::{Facets, guesses};
-use crate::pieces::{Pieces, Triangles};
+use crate::pieces::Pieces;
 use crate::refine::refine_patiently;
 use crate::surface::{Kind, Surface};
 
@@ -33,12 +35,7 @@ pub(crate) struct Hypothesis {
 /// The mesh as the search sees it.
 #[derive(Clone, Copy)]
 pub(crate) struct View<'a> {
-    /// Root mean square distance up to which vertices lie on a surface exactly.
-    pub precision: f64,
-    /// Standard deviation of the vertices from the designed surface; 0 where they are exact.
-    pub noise: f64,
-    pub positions: &'a [DVec3],
-    pub triangles: &'a Triangles,
+    pub ground: Ground<'a>,
     pub pieces: &'a Pieces,
 }
 
@@ -56,7 +53,8 @@ impl View<'_> {
         tolerance: f64,
         least_cos: f64,
     ) -> bool {
-        let lies = |&v: &u32| surface.distance(self.positions[v as usize]).abs() <= tolerance;
+        let lies =
+            |&v: &u32| surface.distance(self.ground.positions[v as usize]).abs() <= tolerance;
         self.faces_as(piece, surface, sign, least_cos)
             && self.pieces.vertices.row(piece).iter().all(lies)
     }
@@ -76,7 +74,9 @@ impl View<'_> {
             agrees(self.pieces.centroids[piece as usize])
         } else {
             // The centroid of a piece bent like a ring lies far from it.
-            let mut centroids = faces.iter().map(|&f| self.triangles.centroids[f as usize]);
+            let mut centroids = faces
+                .iter()
+                .map(|&f| self.ground.triangles.centroids[f as usize]);
             centroids.all(agrees)
         };
         normal == DVec3::ZERO || agree
@@ -86,7 +86,11 @@ impl View<'_> {
     pub fn sagitta(&self, surface: &Surface, pieces: &[u32]) -> f64 {
         let faces = pieces.iter().flat_map(|&p| self.pieces.faces.row(p));
         faces
-            .map(|&f| surface.distance(self.triangles.centroids[f as usize]).abs())
+            .map(|&f| {
+                surface
+                    .distance(self.ground.triangles.centroids[f as usize])
+                    .abs()
+            })
             .fold(0.0, f64::max)
     }
 
@@ -107,7 +111,11 @@ impl View<'_> {
         let centroid = self.pieces.centroids[piece as usize];
         let vertices = self.pieces.vertices.row(piece).iter();
         vertices
-            .map(|&v| (self.positions[v as usize] - centroid).dot(normal).abs())
+            .map(|&v| {
+                (self.ground.positions[v as usize] - centroid)
+                    .dot(normal)
+                    .abs()
+            })
             .all(|away| away <= tolerance)
     }
 
@@ -115,13 +123,13 @@ impl View<'_> {
     pub fn vertices_of(&self, pieces: &[u32]) -> Vec<u32> {
         let rows = pieces.iter().map(|&p| self.pieces.vertices.row(p));
         let all = rows.flatten().copied();
-        if pieces.len() * SCARCE < self.positions.len() {
+        if pieces.len() * SCARCE < self.ground.positions.len() {
             let mut vertices: Vec<u32> = all.collect();
             vertices.sort_unstable();
             vertices.dedup();
             return vertices;
         }
-        let mut among = vec![false; self.positions.len()];
+        let mut among = vec![false; self.ground.positions.len()];
         for vertex in all {
             among[vertex as usize] = true;
         }
@@ -131,16 +139,9 @@ impl View<'_> {
 
     /// Positions of distinct vertices of pieces, `most` at most, from all over them.
     pub fn some_points(&self, pieces: &[u32], most: usize) -> Vec<DVec3> {
-        let few: Vec<u32> = pieces
-            .iter()
-            .copied()
-            .step_by(pieces.len().div_ceil(most))
-            .collect();
-        let vertices = self.vertices_of(&few);
-        vertices
-            .iter()
-            .step_by(vertices.len().div_ceil(most))
-            .map(|&v| self.positions[v as usize])
+        let few: Vec<u32> = a_few(pieces, most).copied().collect();
+        a_few(&self.vertices_of(&few), most)
+            .map(|&v| self.ground.positions[v as usize])
             .collect()
     }
 
@@ -193,14 +194,10 @@ impl View<'_> {
         let evidence = vertices.len() as i64 - surface.kind.degrees_of_freedom() as i64;
         let points: Vec<DVec3> = vertices
             .iter()
-            .map(|&v| self.positions[v as usize])
+            .map(|&v| self.ground.positions[v as usize])
             .collect();
         let apart = 4.0 * tolerance;
-        let few: Vec<DVec3> = points
-            .iter()
-            .copied()
-            .step_by(points.len().div_ceil(MOST_LEVELLED))
-            .collect();
+        let few: Vec<DVec3> = a_few(&points, MOST_LEVELLED).copied().collect();
         let strong = is_strong(&surface, &few, apart)
             && match surface.kind {
                 Kind::Plane | Kind::Cylinder | Kind::Cone => true,
@@ -209,7 +206,7 @@ impl View<'_> {
         let rms = surface.rms(&points);
         Hypothesis {
             rms,
-            exact: rms <= self.precision,
+            exact: rms <= self.ground.precision,
             strong,
             surface,
             sign,
@@ -221,17 +218,9 @@ impl View<'_> {
 
     /// Do the vertices of a sphere's or a torus' pieces lie on a cone as well? Those of one strip of revolution do.
     fn lie_on_a_cone(&self, pieces: &[u32], points: &[DVec3], tolerance: f64) -> bool {
-        let some: Vec<u32> = pieces
-            .iter()
-            .copied()
-            .step_by(pieces.len().div_ceil(100))
-            .collect();
+        let some: Vec<u32> = a_few(pieces, MOST_ON_A_CONE).copied().collect();
         let facets = self.facets(&some);
-        let few: Vec<DVec3> = points
-            .iter()
-            .copied()
-            .step_by(points.len().div_ceil(100))
-            .collect();
+        let few: Vec<DVec3> = a_few(points, MOST_ON_A_CONE).copied().collect();
         guesses(Kind::Cone, &facets.between(&few))
             .into_iter()
             .filter_map(|guess| refine_patiently(guess, &few, tolerance))
@@ -241,6 +230,8 @@ impl View<'_> {
 
 /// Vertices for each piece above which sorting a few is less work than going over all.
 const SCARCE: usize = 64;
+/// Most pieces and points that a cone is fitted to, to see whether there is one.
+const MOST_ON_A_CONE: usize = 100;
 /// Most points that levels are counted of.
 const MOST_LEVELLED: usize = 2000;
 

@@ -44,6 +44,7 @@ mod creases;
 mod describe;
 mod eigen;
 mod fans;
+mod few;
 mod freedom;
 mod ground;
 mod grow;
@@ -84,6 +85,8 @@ use regions::Regions;
 /// Distances, in diagonals of the bounding box, at which vertices still lie on a surface: that of an export
 /// in single precision, then those of kernels which store an approximation.
 const LADDER: [f64; 3] = [1e-6, 1e-5, 5e-5];
+/// The last rung of it.
+const LOOSEST: usize = LADDER.len() - 1;
 
 /// Root mean square distance, in diagonals, of vertices stored in single precision from the surface they were
 /// put on: 1e-8 to 2e-8 in exports about the origin, 1e-7 and more in surfaces that only come near.
@@ -219,7 +222,7 @@ fn look(ground: Ground) -> Found {
     if exact_share < HARDLY_ANYTHING {
         return nothing_exact(topology);
     }
-    let trusted = trust::trusted(ground.seen(&pieces), topology, &regions);
+    let trusted = trust::trusted(ground.seen(&pieces), &regions);
     let doubtful: Vec<u32> = regions.alive().filter(|&r| !trusted[r as usize]).collect();
     for region in doubtful {
         regions.dissolve(region);
@@ -234,10 +237,10 @@ fn look(ground: Ground) -> Found {
     };
     let view = ground.seen(&pieces);
     absorb::absorb(view, &mut regions, ladder[0]);
-    let mut parts = parts::parts(view, topology, &regions, ladder[0]);
+    let mut parts = parts::parts(view, &regions, ladder[0]);
     if whole::accept_wholes(view, &mut regions, &parts, ladder[0]) {
         absorb::absorb(view, &mut regions, ladder[0]);
-        parts = parts::parts(view, topology, &regions, ladder[0]);
+        parts = parts::parts(view, &regions, ladder[0]);
     }
     parts::join_islands(view, &regions, &mut parts);
     let mut of_face: Vec<u32> = pieces
@@ -245,14 +248,7 @@ fn look(ground: Ground) -> Found {
         .iter()
         .map(|&p| parts.of_piece[p as usize])
         .collect();
-    creases::split(
-        positions,
-        topology,
-        ground.triangles,
-        &parts.forms,
-        ground.noise,
-        &mut of_face,
-    );
+    creases::split(ground, &parts.forms, &mut of_face);
     let (of_face, part_of) = connected(topology, &of_face);
     let mut patches = Patches {
         of_face,
@@ -278,7 +274,7 @@ fn exact_share(view: View, regions: &Regions) -> f64 {
         regions.owner[piece as usize] == NONE
             && view.pieces.vertices.row(piece).len() >= LEAST_PLANE
             && view.pieces.smooth_links(piece).next().is_none()
-            && view.is_flat(piece, view.precision)
+            && view.is_flat(piece, view.ground.precision)
     };
     let planes = (0..view.pieces.count() as u32).filter(by_itself);
     let planes: f64 = planes.map(|p| view.pieces.areas[p as usize]).sum();

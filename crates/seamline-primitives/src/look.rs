@@ -5,6 +5,7 @@ use std::hash::{DefaultHasher, Hash, Hasher};
 use glam::DVec3;
 
 use crate::around::STRIP;
+use crate::few::a_few;
 use crate::grow::MOST_POINTS;
 use crate::guess::{Facets, guesses};
 use crate::hypothesis::View;
@@ -48,11 +49,8 @@ impl<'p> Look<'p> {
     /// `None` if all points are one.
     pub fn sample(&mut self, view: View) -> Option<&Sample> {
         if self.sample.is_none() {
-            let some = self
-                .vertices
-                .iter()
-                .step_by(self.vertices.len().div_ceil(MOST_POINTS));
-            let points: Vec<DVec3> = some.map(|&v| view.positions[v as usize]).collect();
+            let some = a_few(&self.vertices, MOST_POINTS);
+            let points: Vec<DVec3> = some.map(|&v| view.ground.positions[v as usize]).collect();
             self.sample = Some(Sample {
                 cloud: Cloud::of(&points)?,
                 facets: view.facets(self.pieces),

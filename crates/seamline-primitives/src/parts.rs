@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use seamline_mesh::{Sets, Topology};
+use seamline_mesh::Sets;
 
 use crate::certain::is_certain_plane;
 use crate::hypothesis::View;
@@ -47,12 +47,11 @@ const MUCH_LARGER: f64 = 4.0;
 const TANGENT_SHARE: f64 = 0.5;
 
 /// Groups the pieces: a part for each region and for each plane, and the rest united over what is no wall.
-pub(crate) fn parts(view: View, topology: &Topology, regions: &Regions, tolerance: f64) -> Parts {
+pub(crate) fn parts(view: View, regions: &Regions, tolerance: f64) -> Parts {
     let pieces = view.pieces;
     let planes: Vec<bool> = (0..pieces.count() as u32)
         .map(|piece| {
-            regions.owner[piece as usize] == NONE
-                && is_plane(view, topology, regions, piece, tolerance)
+            regions.owner[piece as usize] == NONE && is_plane(view, regions, piece, tolerance)
         })
         .collect();
     let mut sets = Sets::new(pieces.count());
@@ -83,13 +82,7 @@ pub(crate) fn parts(view: View, topology: &Topology, regions: &Regions, toleranc
 }
 
 /// Is an unowned piece a plane of its own?
-fn is_plane(
-    view: View,
-    topology: &Topology,
-    regions: &Regions,
-    piece: u32,
-    tolerance: f64,
-) -> bool {
+fn is_plane(view: View, regions: &Regions, piece: u32, tolerance: f64) -> bool {
     let pieces = view.pieces;
     if pieces.certain[piece as usize] || pieces.smooth_links(piece).next().is_none() {
         return true;
@@ -100,7 +93,7 @@ fn is_plane(
     }
     if vertices.len() >= 5 {
         // What has all its vertices on two lines is a strip between two rulings.
-        return is_certain_plane(view.positions, vertices, tolerance);
+        return is_certain_plane(view.ground.positions, vertices, tolerance);
     }
     let [mut largest, mut tangent, mut smooth] = [0.0f64; 3];
     for &link in pieces.around.row(piece) {
@@ -115,7 +108,7 @@ fn is_plane(
             if !pieces.certain[across as usize] {
                 largest = largest.max(pieces.areas[across as usize]);
             }
-        } else if regions.ending(view, topology, &regions.all[owner as usize], across, link)
+        } else if regions.ending(view, &regions.all[owner as usize], across, link)
             == Ending::Tangent
         {
             tangent += at.length;

@@ -4,9 +4,10 @@ use glam::DVec3;
 use seamline_mesh::{Sets, Topology};
 
 use crate::Fitted;
+use crate::few::a_few;
 
 /// Most vertices of a patch that are looked at where all would tell no more.
-const MOST_POINTS: usize = 400;
+pub(crate) const MOST_POINTS: usize = 400;
 
 /// Patches, one number a face, and the surface of each.
 pub(crate) struct Patches {
@@ -30,7 +31,11 @@ impl Patches {
 
     /// Positions of the same, a few of many, from all over each patch.
     pub fn points(&self, positions: &[DVec3], topology: &Topology) -> Vec<Vec<DVec3>> {
-        let at = |all: &Vec<u32>| a_few(all).map(|&v| positions[v as usize]).collect();
+        let at = |all: &Vec<u32>| {
+            a_few(all, MOST_POINTS)
+                .map(|&v| positions[v as usize])
+                .collect()
+        };
         self.vertices(topology).iter().map(at).collect()
     }
 
@@ -43,11 +48,6 @@ impl Patches {
             .collect();
         Self { of_face, surfaces }
     }
-}
-
-/// Some of many, evenly.
-pub(crate) fn a_few<T>(all: &[T]) -> impl Iterator<Item = &T> {
-    all.iter().step_by(all.len().div_ceil(MOST_POINTS).max(1))
 }
 
 /// A number for each connected set of faces of one part, and the part of each number.

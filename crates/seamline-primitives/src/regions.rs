@@ -91,14 +91,7 @@ impl Regions {
     }
 
     /// How a hypothesis ends along a link that leaves it over `piece`.
-    pub fn ending(
-        &self,
-        view: View,
-        topology: &seamline_mesh::Topology,
-        of: &Hypothesis,
-        piece: u32,
-        link: u32,
-    ) -> Ending {
+    pub fn ending(&self, view: View, of: &Hypothesis, piece: u32, link: u32) -> Ending {
         let pieces = view.pieces;
         let Link {
             wall, pieces: pair, ..
@@ -109,8 +102,8 @@ impl Regions {
         let across = pair[usize::from(pair[0] == piece)];
         let edges = pieces.link_edges.row(link).iter();
         let mut vertices = edges
-            .flat_map(|&edge| topology.edge_vertices[edge as usize])
-            .map(|v| view.positions[v as usize]);
+            .flat_map(|&edge| view.ground.topology.edge_vertices[edge as usize])
+            .map(|v| view.ground.positions[v as usize]);
         let owner = self.owner[across as usize];
         if owner != NONE {
             let other = &self.all[owner as usize];
@@ -137,13 +130,7 @@ impl Regions {
     }
 
     /// The border of a hypothesis: how it ends against what is not its own.
-    pub fn border(
-        &self,
-        view: View,
-        topology: &seamline_mesh::Topology,
-        of: &Hypothesis,
-        inside: impl Fn(u32) -> bool,
-    ) -> Border {
+    pub fn border(&self, view: View, of: &Hypothesis, inside: impl Fn(u32) -> bool) -> Border {
         let mut border = Border::default();
         for &piece in &of.pieces {
             for &link in view.pieces.around.row(piece) {
@@ -151,7 +138,7 @@ impl Regions {
                 if pieces.iter().all(|&p| inside(p)) {
                     continue;
                 }
-                match self.ending(view, topology, of, piece, link) {
+                match self.ending(view, of, piece, link) {
                     Ending::Wall => border.wall += length,
                     Ending::Tangent => border.tangent += length,
                     Ending::Creased => border.creased += length,

@@ -35,8 +35,8 @@ const FEW: usize = 6;
 /// Lets patches compete until no face goes over. A patch that has lost all its faces keeps its number.
 pub(crate) fn relax(ground: Ground, patches: &mut Patches) {
     for _ in 0..ROUNDS {
-        fit(ground, patches);
-        unite(ground, patches);
+        let points = fit(ground, patches);
+        unite(ground, patches, points);
         fit(ground, patches);
         if sweep(ground, patches) == 0 {
             break;
@@ -44,8 +44,8 @@ pub(crate) fn relax(ground: Ground, patches: &mut Patches) {
     }
 }
 
-/// Fits the surface of each patch to its vertices anew, where that brings them nearer.
-fn fit(ground: Ground, patches: &mut Patches) {
+/// Fits the surface of each patch to its vertices anew, where that brings them nearer. Gives these vertices.
+fn fit(ground: Ground, patches: &mut Patches) -> Vec<Vec<DVec3>> {
     let points = patches.points(ground.positions, ground.topology);
     let all = patches.surfaces.par_iter_mut().zip(&points);
     all.for_each(|(fitted, points)| {
@@ -63,6 +63,7 @@ fn fit(ground: Ground, patches: &mut Patches) {
         }
         weigh(ground, own, points);
     });
+    points
 }
 
 /// Tells how well the surface of each patch is proved by the vertices the patch has now.

@@ -2,6 +2,7 @@
 
 use std::collections::HashSet;
 
+use crate::LOOSEST;
 use crate::around::{DISC_SHRINKS, MOST_IN_RING};
 use crate::grow::Soil;
 use crate::hypothesis::Hypothesis;
@@ -74,7 +75,7 @@ impl<'s, 'a> Scout<'s, 'a> {
     /// Tries the small neighbourhoods. At the loosest tolerance nearly all of them are on some surface, and only large
     /// surfaces are believed: triples, pairs of stars and rings have no more to tell there.
     fn on_neighbourhoods(&mut self) {
-        let loosest = self.soil.rung == 2;
+        let loosest = self.soil.rung == LOOSEST;
         if !loosest {
             for triple in self.soil.around.triples(self.seed) {
                 self.attempt_all([Kind::Cylinder, Kind::Cone], &triple);

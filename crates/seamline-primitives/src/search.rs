@@ -3,6 +3,7 @@
 
 use rayon::prelude::*;
 
+use crate::LOOSEST;
 use crate::around::{Around, Marks};
 use crate::bends;
 use crate::climb::least_evidence;
@@ -126,8 +127,8 @@ impl State {
         // What is not exact, or too little at the loosest tolerance, is not believed for itself.
         let counts = |h: &Hypothesis| match self.rung {
             0 => h.exact,
-            1 => true,
-            rung => h.evidence >= least_evidence(rung, h.surface.kind),
+            LOOSEST => h.evidence >= least_evidence(LOOSEST, h.surface.kind),
+            _ => true,
         };
         if found.hypotheses.iter().any(|h| h.strong && counts(h)) {
             self.in_a_row /= 2;

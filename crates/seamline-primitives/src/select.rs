@@ -3,8 +3,6 @@
 
 use std::collections::{BinaryHeap, HashSet};
 
-use seamline_mesh::Topology;
-
 use crate::hypothesis::{Hypothesis, View};
 use crate::pieces::NONE;
 use crate::regions::Regions;
@@ -100,14 +98,9 @@ pub(crate) fn select(
 }
 
 /// Do the borders of a weak hypothesis, or of what is left of a strong one, speak for it?
-pub(crate) fn borders_speak_for(
-    view: View,
-    topology: &Topology,
-    regions: &Regions,
-    hypothesis: &Hypothesis,
-) -> bool {
+pub(crate) fn borders_speak_for(view: View, regions: &Regions, hypothesis: &Hypothesis) -> bool {
     let inside: HashSet<u32> = hypothesis.pieces.iter().copied().collect();
-    let border = regions.border(view, topology, hypothesis, |p| inside.contains(&p));
+    let border = regions.border(view, hypothesis, |p| inside.contains(&p));
     let smooth = border.smooth();
     let by_tangency = matches!(
         hypothesis.surface.kind,

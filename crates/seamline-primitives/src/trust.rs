@@ -1,7 +1,5 @@
 //! Natural borders: a false surface fits as exactly as a true one; it differs in where it ends.
 
-use seamline_mesh::Topology;
-
 use crate::hypothesis::{Hypothesis, View};
 use crate::pieces::NONE;
 use crate::regions::{Ending, Regions};
@@ -27,17 +25,17 @@ const ABRUPT: f64 = 700.0;
 const FAR_IN_NOISE: f64 = 1e-3;
 
 /// Which regions can be trusted, one a region.
-pub(crate) fn trusted(view: View, topology: &Topology, regions: &Regions) -> Vec<bool> {
+pub(crate) fn trusted(view: View, regions: &Regions) -> Vec<bool> {
     let mut trusted = vec![false; regions.all.len()];
-    while spread(view, topology, regions, &mut trusted) {}
+    while spread(view, regions, &mut trusted) {}
     trusted
 }
 
 /// One round over the regions not yet trusted. True if any was.
-fn spread(view: View, topology: &Topology, regions: &Regions, trusted: &mut [bool]) -> bool {
+fn spread(view: View, regions: &Regions, trusted: &mut [bool]) -> bool {
     let mut any = false;
     for region in regions.alive() {
-        if !trusted[region as usize] && is_natural(view, topology, regions, trusted, region) {
+        if !trusted[region as usize] && is_natural(view, regions, trusted, region) {
             trusted[region as usize] = true;
             any = true;
         }
@@ -47,13 +45,7 @@ fn spread(view: View, topology: &Topology, regions: &Regions, trusted: &mut [boo
 
 /// Is enough of a region's border natural? Walls say nothing: each tile of a narrow band between two walls has walls
 /// on most of its border.
-fn is_natural(
-    view: View,
-    topology: &Topology,
-    regions: &Regions,
-    trusted: &[bool],
-    region: u32,
-) -> bool {
+fn is_natural(view: View, regions: &Regions, trusted: &[bool], region: u32) -> bool {
     let own = &regions.all[region as usize];
     let exact = own.strong && own.exact && own.evidence >= ENOUGH_IF_EXACT;
     if own.surface.kind == Kind::Plane || exact {
@@ -79,7 +71,7 @@ fn is_natural(
                 // On a dense free form every next piece lies in the tangent plane: a flat is larger.
                 view.pieces.certain[across as usize]
                     || (own.exact || view.pieces.areas[across as usize] >= flat)
-                        && regions.ending(view, topology, own, piece, link) == Ending::Tangent
+                        && regions.ending(view, own, piece, link) == Ending::Tangent
             } else {
                 let both_small =
                     own.evidence < SMALL && regions.all[owner as usize].evidence < SMALL;
@@ -106,11 +98,17 @@ fn is_natural(
 /// Does a region end here as surfaces do, with what comes next far off it? A free form leaves the surface it came near
 /// by and by.
 fn ends_abruptly(view: View, region: &Hypothesis, across: u32) -> bool {
-    let far = if view.noise > 0.0 {
+    let far = if view.ground.noise > 0.0 {
         FAR_IN_NOISE
     } else {
         ABRUPT * region.rms
     };
     let mut vertices = view.pieces.vertices.row(across).iter();
-    vertices.any(|&v| region.surface.distance(view.positions[v as usize]).abs() >= far)
+    vertices.any(|&v| {
+        region
+            .surface
+            .distance(view.ground.positions[v as usize])
+            .abs()
+            >= far
+    })
 }

@@ -6,8 +6,9 @@ use glam::DVec3;
 use seamline_mesh::Sets;
 
 use crate::Fitted;
+use crate::few::a_few;
 use crate::ground::Ground;
-use crate::patches::{Patches, a_few};
+use crate::patches::{MOST_POINTS, Patches};
 use crate::refine::refine_patiently;
 use crate::relax::turned;
 use crate::surface::Kind;
@@ -23,9 +24,9 @@ const WORSE: f64 = 1.2;
 /// least: one of few vertices is fitted to their noise.
 const LEAST_OWN: f64 = 0.8;
 
-/// Unites neighbours that lie on one surface, those of the longest common boundary first.
-pub(crate) fn unite(ground: Ground, patches: &mut Patches) {
-    let mut points = patches.points(ground.positions, ground.topology);
+/// Unites neighbours that lie on one surface, those of the longest common boundary first. `points` are some vertices
+/// of each patch.
+pub(crate) fn unite(ground: Ground, patches: &mut Patches, mut points: Vec<Vec<DVec3>>) {
     let mut faces = vec![Vec::new(); patches.surfaces.len()];
     for (face, &patch) in patches.of_face.iter().enumerate() {
         faces[patch as usize].push(face as u32);
@@ -58,7 +59,7 @@ pub(crate) fn unite(ground: Ground, patches: &mut Patches) {
         let less = std::mem::take(&mut faces[small as usize]);
         faces[large as usize].extend(less);
         faces.swap(kept as usize, large as usize);
-        points[kept as usize] = a_few(&both).copied().collect();
+        points[kept as usize] = a_few(&both, MOST_POINTS).copied().collect();
         patches.surfaces[kept as usize] = Some(surface);
     }
     for patch in &mut patches.of_face {

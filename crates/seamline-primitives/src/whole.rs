@@ -3,6 +3,7 @@
 use glam::DVec3;
 use rayon::prelude::*;
 
+use crate::few::a_few;
 use crate::guess::{cone_about, guesses};
 use crate::hypothesis::{Hypothesis, View};
 use crate::parts::{Form, Parts};
@@ -56,10 +57,8 @@ pub(crate) fn whole(
         return Some(found);
     }
     let vertices = view.vertices_of(pieces);
-    let few = vertices
-        .iter()
-        .step_by(vertices.len().div_ceil(MOST_POINTS));
-    let points: Vec<DVec3> = few.map(|&v| view.positions[v as usize]).collect();
+    let few = a_few(&vertices, MOST_POINTS);
+    let points: Vec<DVec3> = few.map(|&v| view.ground.positions[v as usize]).collect();
     let facets = [view.facets(pieces), view.linked_facets(pieces)];
     let axes = axes_beside(view, regions, pieces);
     for kind in [Kind::Cylinder, Kind::Cone, Kind::Sphere, Kind::Torus] {

@@ -27,6 +27,10 @@ use seamline_ecs::Worker;
 use seamline_tests::models::models;
 use seamline_tests::{bench, pipeline};
 
+/// That of the program, so that it takes as long.
+#[global_allocator]
+static ALLOCATOR: mimalloc::MiMalloc = mimalloc::MiMalloc;
+
 fn main() -> ExitCode {
     let mut tell_seconds = false;
     let mut folder: Option<PathBuf> = None;

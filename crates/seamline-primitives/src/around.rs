@@ -17,8 +17,8 @@ pub(crate) const DISC_SHRINKS: usize = 4;
 const MOST_TRIPLES: usize = 12;
 /// Most vertices of a seed that are looked round.
 const MOST_STARS: usize = 8;
-/// Pieces of a strip.
-pub(crate) const STRIP: usize = 8;
+/// Pieces of a strip on each rung of the ladder of tolerances: the looser, the larger a surface must be to be believed.
+const STRIP: [usize; 3] = [8, 8, 24];
 
 /// Marks of pieces or vertices that are forgotten all at once.
 #[derive(Default)]
@@ -72,32 +72,40 @@ impl<'a> Around<'a> {
     }
 
     /// The seed with two neighbours, and with a neighbour and its neighbour.
-    pub fn triples(&self, seed: u32) -> Vec<Vec<u32>> {
+    pub fn triples(&self, seed: u32) -> Vec<[u32; 3]> {
         let near: Vec<u32> = self.neighbours(seed).take(6).collect();
         let mut triples = Vec::new();
         for (i, &a) in near.iter().enumerate() {
-            triples.extend(near[..i].iter().map(|&b| vec![seed, a, b]));
+            triples.extend(near[..i].iter().map(|&b| [seed, a, b]));
         }
         for &a in &near {
             let beyond = self
                 .neighbours(a)
                 .filter(|p| *p != seed && !near.contains(p));
-            triples.extend(beyond.take(3).map(|b| vec![seed, a, b]));
+            triples.extend(beyond.take(3).map(|b| [seed, a, b]));
         }
         triples.truncate(MOST_TRIPLES);
         triples
     }
 
+    /// How many vertices pieces have at most, each of which shares an edge with one before.
+    pub fn most_vertices(&self, pieces: &[u32]) -> usize {
+        let corners = pieces
+            .iter()
+            .map(|&p| self.view.pieces.vertices.row(p).len());
+        corners.sum::<usize>() - 2 * (pieces.len() - 1)
+    }
+
     /// The seed and what goes on from it with the least turns: along a strip of triangles between two rims, of
     /// which every star holds pieces beyond the rims.
-    pub fn strip(&self, seed: u32) -> Vec<u32> {
+    pub fn strip(&self, seed: u32, rung: usize) -> Vec<u32> {
         let pieces = self.view.pieces;
         let turn = |a: u32, b: u32| {
             let [a, b] = [a, b].map(|p| pieces.normals[p as usize]);
             a.dot(b)
         };
         let mut strip = vec![seed];
-        while strip.len() < STRIP {
+        while strip.len() < STRIP[rung] {
             let beyond = strip.iter().flat_map(|&from| {
                 self.neighbours(from)
                     .filter(|p| !strip.contains(p))

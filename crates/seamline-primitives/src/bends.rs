@@ -1,11 +1,14 @@
 //! Strips across a torus, each of which lies on a cylinder of its tube's radius: those beside each other lie on the torus.
 
-use std::collections::{BTreeMap, HashSet};
+use std::collections::BTreeMap;
+
+use foldhash::HashSet;
 
 use crate::grow::Soil;
 use crate::hypothesis::Hypothesis;
-use crate::scout::{Scout, Tried};
+use crate::scout::Scout;
 use crate::surface::Kind;
+use crate::tried::Tried;
 
 /// Radii that differ by no more than this share are those of one tube.
 const SAME_RADIUS: f64 = 0.02;
@@ -16,7 +19,12 @@ const ONE_AXIS: f64 = 0.999_998_5;
 const STRIPS: [usize; 2] = [2, 16];
 
 /// Tori tried on strong cylinders of one radius that meet smoothly and have different axes.
-pub(crate) fn tori(soil: &mut Soil, before: &Tried, found: &[Hypothesis]) -> Vec<Hypothesis> {
+pub(crate) fn tori(
+    soil: &mut Soil,
+    before: &Tried,
+    turn: usize,
+    found: &[Hypothesis],
+) -> Vec<Hypothesis> {
     let view = soil.view;
     let mut holder = vec![None; view.pieces.count()];
     let mut on_torus = vec![false; view.pieces.count()];
@@ -31,7 +39,7 @@ pub(crate) fn tori(soil: &mut Soil, before: &Tried, found: &[Hypothesis]) -> Vec
     }
     let mut bent: Vec<([usize; 2], [u32; 2])> = Vec::new();
     let mut beside: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
-    let mut known = HashSet::new();
+    let mut known = HashSet::default();
     for link in view.pieces.links.iter().filter(|link| !link.wall) {
         if let [Some(a), Some(b)] = link.pieces.map(|p| holder[p as usize])
             && a != b
@@ -59,7 +67,7 @@ pub(crate) fn tori(soil: &mut Soil, before: &Tried, found: &[Hypothesis]) -> Vec
                 .collect();
             pieces.sort_unstable();
             pieces.dedup();
-            let scout = Scout::new(soil, meet[0], before);
+            let scout = Scout::new(soil, meet[0], before, turn);
             let Some(torus) = scout.of_kind(Kind::Torus, &pieces) else {
                 continue;
             };

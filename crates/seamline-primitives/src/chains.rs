@@ -9,9 +9,9 @@
 //! alignments" (2000): a chain counts if chance would hardly give one as straight in a part whose edges go on as those of
 //! this part do. In a grid all rows are straight, and none of them counts.
 
-use std::collections::{HashMap, HashSet};
-
+use foldhash::{HashMap, HashSet};
 use glam::DVec3;
+use rayon::prelude::*;
 use seamline_mesh::Topology;
 
 use crate::fans::{fan, straightest};
@@ -30,6 +30,9 @@ const AS_STRAIGHT_DEG: f64 = 0.2;
 /// rows of swept tubes and many a border about .5, so that the surface has to turn at these borders. With 1 degree and .6
 /// one swept handle falls apart and two shells gain: ARI .0024 less over 132 meshes.
 const IN_ROWS: f64 = 0.5;
+/// How often chains are gone through again because new curves end them, so that the whole is linear in the edges. No part
+/// of 615 meshes took more than 6.
+const MOST_ROUNDS: usize = 16;
 /// Degrees up to which two turns are one.
 const SAME_DEG: f64 = 1e-3;
 
@@ -71,6 +74,8 @@ pub(crate) struct Chains<'a> {
     edges: &'a Edges,
     /// What each edge goes on with, and by how many degrees that turns to one side.
     goes_on: HashMap<Step, (u32, f64)>,
+    /// Vertices through which an edge goes on.
+    inside: HashSet<u32>,
     /// Turns in size, rising.
     turns: Vec<f64>,
     /// Differences in size between a turn and the next, rising.
@@ -84,18 +89,21 @@ impl<'a> Chains<'a> {
         let mut vertices: Vec<u32> = edges.iter().flat_map(ends).collect();
         vertices.sort_unstable();
         vertices.dedup();
-        let mut goes_on = HashMap::new();
-        for vertex in vertices {
+        let is_inside = |&vertex: &u32| {
             let mut around = topology.vertex_edges.row(vertex as usize).iter();
-            if around.all(|edge| inner.contains(edge))
-                && let Some(fan) = fan(positions, topology, vertex)
-            {
-                for (from, to, turn) in straightest(&fan) {
-                    goes_on.insert((from, vertex), (to, turn));
-                    goes_on.insert((to, vertex), (from, -turn));
-                }
-            }
-        }
+            around.all(|edge| inner.contains(edge))
+        };
+        let pairs = |vertex: u32| {
+            let pairs = fan(positions, topology, vertex).map(|fan| straightest(&fan));
+            let pairs = pairs.into_iter().flatten();
+            pairs.flat_map(move |(from, to, turn)| {
+                let forth = ((from, vertex), (to, turn));
+                [forth, ((to, vertex), (from, -turn))]
+            })
+        };
+        let inside = vertices.into_par_iter().filter(is_inside);
+        let goes_on: Vec<(Step, (u32, f64))> = inside.flat_map_iter(pairs).collect();
+        let goes_on: HashMap<Step, (u32, f64)> = goes_on.into_iter().collect();
         let change = |(&(_, vertex), &(next, turn)): (&Step, &(u32, f64))| {
             let (_, after) = goes_on.get(&(next, topology.far_end(next, vertex)))?;
             Some((after - turn).abs())
@@ -107,6 +115,7 @@ impl<'a> Chains<'a> {
         Self {
             topology,
             edges,
+            inside: goes_on.keys().map(|&(_, vertex)| vertex).collect(),
             goes_on,
             turns,
             changes,
@@ -116,9 +125,9 @@ impl<'a> Chains<'a> {
     /// The chains that count. They end at the border of the part or at one another, or close.
     pub fn curves(&self) -> Vec<Curve> {
         let mut curves: Vec<Curve> = Vec::new();
-        let [mut taken, mut stops] = [HashSet::new(), HashSet::new()];
+        let [mut taken, mut stops] = [HashSet::default(), HashSet::default()];
         let mut tests = None;
-        loop {
+        for _ in 0..MOST_ROUNDS {
             let before = curves.len();
             let all = self.all(&taken, &stops);
             let tests = *tests.get_or_insert(all.len() as f64);
@@ -137,13 +146,14 @@ impl<'a> Chains<'a> {
                 }
             }
             if curves.len() == before {
-                return curves;
+                break;
             }
             for &edge in curves[before..].iter().flat_map(|curve| &curve.edges) {
                 taken.insert(edge);
                 stops.extend(self.topology.edge_vertices[edge as usize]);
             }
         }
+        curves
     }
 
     /// How likely a chain of as many edges is that goes as straight on, or turns as evenly.
@@ -222,8 +232,7 @@ impl<'a> Chains<'a> {
 
     /// Does a vertex lie at the border of the part, so that nothing goes on through it?
     fn is_at_border(&self, vertex: u32) -> bool {
-        let mut around = self.around(vertex);
-        !around.any(|(edge, _)| self.goes_on.contains_key(&(edge, vertex)))
+        !self.inside.contains(&vertex)
     }
 
     /// Share of the vertices beside a chain that lie in rows along it which are as straight.

@@ -7,6 +7,7 @@ use crate::regions::Regions;
 use crate::search::search;
 use crate::select::{borders_speak_for, free_part, select};
 use crate::surface::Kind;
+use crate::tried::Tried;
 use crate::{HARDLY_ANYTHING, absorb, exact_share, tiles, trust};
 
 /// How flat a piece is, as a share of the tolerance.
@@ -27,6 +28,7 @@ const TURNS: usize = 3;
 pub(crate) fn climb(ground: Ground, ladder: [f64; 3]) -> (Pieces, Regions) {
     let mut pieces = Pieces::default();
     let mut regions = Regions::default();
+    let tried = Tried::default();
     for (rung, &tolerance) in ladder.iter().enumerate() {
         if rung > 0 && is_done(&pieces, &regions) {
             break;
@@ -47,7 +49,7 @@ pub(crate) fn climb(ground: Ground, ladder: [f64; 3]) -> (Pieces, Regions) {
             Vec::new()
         };
         let view = ground.seen(&pieces);
-        step(view, &mut regions, planes, rung, tolerance);
+        step(view, &mut regions, planes, &tried, rung, tolerance);
         absorb::absorb(view, &mut regions, tolerance);
         if ground.noise > 0.0 {
             tiles::dissolve(view, &mut regions);
@@ -125,7 +127,14 @@ pub(crate) fn least_evidence(rung: usize, kind: Kind) -> i64 {
 }
 
 /// One rung of the ladder of tolerances.
-fn step(view: View, regions: &mut Regions, planes: Vec<Hypothesis>, rung: usize, tolerance: f64) {
+fn step(
+    view: View,
+    regions: &mut Regions,
+    planes: Vec<Hypothesis>,
+    tried: &Tried,
+    rung: usize,
+    tolerance: f64,
+) {
     let freed = if rung == 0 {
         Vec::new()
     } else {
@@ -139,7 +148,7 @@ fn step(view: View, regions: &mut Regions, planes: Vec<Hypothesis>, rung: usize,
     let open: Vec<bool> = (0..view.pieces.count())
         .map(|p| regions.owner[p] == NONE)
         .collect();
-    let mut found = search(view, &open, rung, tolerance);
+    let mut found = search(view, &open, tried, rung, tolerance);
     found.extend(planes);
     let enough = |h: &Hypothesis| {
         let least = least_evidence(rung, h.surface.kind);

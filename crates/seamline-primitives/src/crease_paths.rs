@@ -3,8 +3,9 @@
 //! with both.
 
 use std::cmp::Reverse;
-use std::collections::{BTreeMap, BinaryHeap, HashMap, HashSet};
+use std::collections::{BTreeMap, BinaryHeap};
 
+use foldhash::{HashMap, HashSet};
 use seamline_mesh::Sets;
 
 use crate::creases::Part;
@@ -28,7 +29,7 @@ impl Part<'_> {
     /// Edges of creases.
     pub fn creased_by_turn(&self) -> HashSet<u32> {
         if self.median > COARSE_DEG {
-            return HashSet::new();
+            return HashSet::default();
         }
         let edges = self.edges.iter().map(|&(edge, _)| edge);
         let turns_enough = |edge: &u32| self.turns[edge] >= self.crease_deg();
@@ -112,7 +113,7 @@ impl Part<'_> {
             edges.sort_unstable();
             edges
         };
-        let mut first_at: HashMap<u32, u32> = HashMap::new();
+        let mut first_at: HashMap<u32, u32> = HashMap::default();
         let mut sets = Sets::new(edges.len());
         for (i, &edge) in edges.iter().enumerate() {
             for vertex in self.ground.topology.edge_vertices[edge as usize] {
@@ -120,7 +121,7 @@ impl Part<'_> {
                 sets.unite(first, i as u32);
             }
         }
-        let mut sizes: HashMap<u32, usize> = HashMap::new();
+        let mut sizes: HashMap<u32, usize> = HashMap::default();
         for i in 0..edges.len() as u32 {
             *sizes.entry(sets.first(i)).or_default() += 1;
         }
@@ -133,23 +134,32 @@ impl Part<'_> {
 
     /// Joins each open end to the border or to another crease by the cheapest path.
     fn complete(&self, creased: &mut HashSet<u32>) {
+        let mut connected = Connected::by(self, creased);
         for (vertex, edge) in self.open_ends(creased) {
-            if let Some(path) = self.cheapest_path(vertex, edge, creased) {
+            if let Some(path) = self.cheapest_path(vertex, edge, creased, &mut connected) {
+                for &edge in &path {
+                    connected.along(self, edge);
+                }
                 creased.extend(path);
             }
         }
     }
 
-    fn cheapest_path(&self, start: u32, from: u32, creased: &HashSet<u32>) -> Option<Vec<u32>> {
-        let own = self.crease_vertices(from, creased);
-        let goal = |vertex: u32| {
+    fn cheapest_path(
+        &self,
+        start: u32,
+        from: u32,
+        creased: &HashSet<u32>,
+        connected: &mut Connected,
+    ) -> Option<Vec<u32>> {
+        let mut goal = |vertex: u32| {
             let meets = || self.inner_edges_at(vertex).any(|e| creased.contains(&e));
-            self.on_border(vertex) || (!own.contains(&vertex) && meets())
+            self.on_border(vertex) || (meets() && !connected.are(vertex, start))
         };
         // Costs in thousandths, so that they order; a state is an edge and the vertex it leads to.
         let mut heap = BinaryHeap::from([(Reverse(0u64), from, start)]);
         let mut came: HashMap<(u32, u32), (u64, Option<(u32, u32)>)> =
-            HashMap::from([((from, start), (0, None))]);
+            HashMap::from_iter([((from, start), (0, None))]);
         while let Some((Reverse(cost), edge, vertex)) = heap.pop() {
             if came[&(edge, vertex)].0 < cost {
                 continue;
@@ -181,17 +191,42 @@ impl Part<'_> {
         }
         None
     }
+}
 
-    /// Vertices of the crease that holds an edge.
-    fn crease_vertices(&self, edge: u32, creased: &HashSet<u32>) -> HashSet<u32> {
-        let mut vertices = HashSet::new();
-        let mut open: Vec<u32> = self.ground.topology.edge_vertices[edge as usize].to_vec();
-        while let Some(vertex) = open.pop() {
-            if vertices.insert(vertex) {
-                let on = self.inner_edges_at(vertex).filter(|e| creased.contains(e));
-                open.extend(on.map(|e| self.ground.topology.far_end(e, vertex)));
+/// Which vertices creases connect.
+struct Connected {
+    /// Of each vertex of the part.
+    rows: HashMap<u32, u32>,
+    sets: Sets,
+}
+
+impl Connected {
+    fn by(part: &Part, creased: &HashSet<u32>) -> Self {
+        let mut rows: HashMap<u32, u32> = HashMap::default();
+        for &(edge, _) in part.edges {
+            for vertex in part.ground.topology.edge_vertices[edge as usize] {
+                let next = rows.len() as u32;
+                rows.entry(vertex).or_insert(next);
             }
         }
-        vertices
+        let mut connected = Self {
+            sets: Sets::new(rows.len()),
+            rows,
+        };
+        for &edge in creased {
+            connected.along(part, edge);
+        }
+        connected
+    }
+
+    /// Takes an edge for a crease.
+    fn along(&mut self, part: &Part, edge: u32) {
+        let [a, b] = part.ground.topology.edge_vertices[edge as usize].map(|v| self.rows[&v]);
+        self.sets.unite(a, b);
+    }
+
+    fn are(&mut self, a: u32, b: u32) -> bool {
+        let [a, b] = [a, b].map(|v| self.rows[&v]);
+        self.sets.first(a) == self.sets.first(b)
     }
 }

@@ -1,8 +1,9 @@
 //! Pieces of a free form between its creases: those too alike, and those too small, are united.
 
 use std::cmp::Reverse;
-use std::collections::{BTreeMap, BinaryHeap, HashSet};
+use std::collections::{BTreeMap, BinaryHeap};
 
+use foldhash::HashSet;
 use seamline_mesh::Sets;
 
 use crate::creases::Part;

@@ -39,21 +39,21 @@ fn rotate<const N: usize>(m: &mut [[f64; N]; N], vectors: &mut [[f64; N]; N], p:
     let t = if theta == 0.0 { 1.0 } else { t };
     let c = 1.0 / (t * t + 1.0).sqrt();
     let s = t * c;
-    for k in 0..N {
-        let (a, b) = (m[k][p], m[k][q]);
-        m[k][p] = c * a - s * b;
-        m[k][q] = s * a + c * b;
+    let turned = |[a, b]: [[f64; N]; 2]| -> [[f64; N]; 2] {
+        let first = std::array::from_fn(|k| c * a[k] - s * b[k]);
+        [first, std::array::from_fn(|k| s * a[k] + c * b[k])]
+    };
+    let [on_p, on_q] = [m[p][p] - t * m[p][q], m[q][q] + t * m[p][q]];
+    let [row_p, row_q] = turned([m[p], m[q]]);
+    for (k, row) in m.iter_mut().enumerate() {
+        row[p] = row_p[k];
+        row[q] = row_q[k];
     }
-    for k in 0..N {
-        let (a, b) = (m[p][k], m[q][k]);
-        m[p][k] = c * a - s * b;
-        m[q][k] = s * a + c * b;
-    }
-    for k in 0..N {
-        let (a, b) = (vectors[p][k], vectors[q][k]);
-        vectors[p][k] = c * a - s * b;
-        vectors[q][k] = s * a + c * b;
-    }
+    m[p] = row_p;
+    m[q] = row_q;
+    [m[p][p], m[q][q]] = [on_p, on_q];
+    [m[p][q], m[q][p]] = [0.0; 2];
+    [vectors[p], vectors[q]] = turned([vectors[p], vectors[q]]);
 }
 
 #[cfg(test)]

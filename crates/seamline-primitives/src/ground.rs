@@ -6,7 +6,8 @@ use glam::DVec3;
 use seamline_mesh::Topology;
 
 use crate::hypothesis::View;
-use crate::pieces::{Pieces, Triangles};
+use crate::pieces::Pieces;
+use crate::triangles::Triangles;
 
 /// Standard deviations of a vertex for which the normal of a triangle is turned with it.
 const LEANS: f64 = 3.0;

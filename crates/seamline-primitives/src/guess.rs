@@ -158,10 +158,14 @@ fn sphere(of: &Neighbourhood) -> Option<Surface> {
 }
 
 fn cylinder(of: &Neighbourhood) -> Option<Surface> {
-    let axis = least_direction(of.normals.iter().copied())?;
+    cylinder_about(least_direction(of.normals.iter().copied())?, of.points)
+}
+
+/// The cylinder of a given direction that comes nearest to points, by Kasa's linear method.
+pub(crate) fn cylinder_about(axis: DVec3, points: &[DVec3]) -> Option<Surface> {
     let (u, v) = axis.any_orthonormal_pair();
-    let centre = mean(of.points);
-    let flat = of.points.iter().map(|&x| {
+    let centre = mean(points);
+    let flat = points.iter().map(|&x| {
         let x = x - centre;
         [x.dot(u), x.dot(v)]
     });

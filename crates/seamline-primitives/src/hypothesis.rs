@@ -1,8 +1,8 @@
 //! Hypotheses: a surface, the pieces that lie on it, and how far they prove it.
 
-use std::collections::HashSet;
 use std::f64::consts::PI;
 
+use foldhash::HashSet;
 use glam::DVec3;
 
 use crate::few::a_few;
@@ -122,15 +122,16 @@ impl View<'_> {
     /// Distinct vertices of pieces, in order.
     pub fn vertices_of(&self, pieces: &[u32]) -> Vec<u32> {
         let rows = pieces.iter().map(|&p| self.pieces.vertices.row(p));
-        let all = rows.flatten().copied();
         if pieces.len() * SCARCE < self.ground.positions.len() {
-            let mut vertices: Vec<u32> = all.collect();
+            // Most pieces are triangles.
+            let mut vertices = Vec::with_capacity(3 * pieces.len());
+            rows.for_each(|row| vertices.extend_from_slice(row));
             vertices.sort_unstable();
             vertices.dedup();
             return vertices;
         }
         let mut among = vec![false; self.ground.positions.len()];
-        for vertex in all {
+        for &vertex in rows.flatten() {
             among[vertex as usize] = true;
         }
         let numbered = among.into_iter().zip(0..);

@@ -45,12 +45,14 @@ mod describe;
 mod eigen;
 mod fans;
 mod few;
+mod flat;
 mod freedom;
 mod ground;
 mod grow;
 mod guess;
 mod hypothesis;
 mod linear;
+mod links;
 mod look;
 mod noise;
 mod parts;
@@ -62,11 +64,15 @@ mod relax;
 mod rows;
 mod scout;
 mod search;
+mod seeds;
 mod select;
 mod snap;
 mod surface;
 mod tiles;
+mod triangles;
+mod tried;
 mod trust;
+
 mod unite;
 mod whole;
 
@@ -79,8 +85,9 @@ use climb::{PLANE_VERTICES, climb, recut};
 use ground::Ground;
 use hypothesis::View;
 use patches::{Patches, connected};
-use pieces::{NONE, Triangles};
+use pieces::NONE;
 use regions::Regions;
+use triangles::Triangles;
 
 /// Distances, in diagonals of the bounding box, at which vertices still lie on a surface: that of an export
 /// in single precision, then those of kernels which store an approximation.
@@ -251,8 +258,14 @@ fn look(ground: Ground) -> Found {
     creases::split(ground, &parts.forms, &mut of_face);
     let (of_face, part_of) = connected(topology, &of_face);
     let mut patches = Patches {
+        surfaces: describe::surfaces(
+            view,
+            &regions,
+            &parts,
+            (&of_face, &part_of),
+            [ladder[0], ladder[1]],
+        ),
         of_face,
-        surfaces: describe::surfaces(view, &regions, &parts, &part_of, ladder[0]),
     };
     let points = patches.points(positions, topology);
     snap::snap(&mut patches.surfaces, &points, precision);

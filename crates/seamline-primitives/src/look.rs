@@ -1,23 +1,27 @@
 //! A neighbourhood as all kinds of surfaces look at it.
 
-use std::hash::{DefaultHasher, Hash, Hasher};
-
 use glam::DVec3;
 
-use crate::around::STRIP;
 use crate::few::a_few;
 use crate::grow::MOST_POINTS;
 use crate::guess::{Facets, guesses};
 use crate::hypothesis::View;
 use crate::refine::Cloud;
 use crate::surface::{Kind, Surface};
+use crate::tried::mixed;
+
+/// Vertices a neighbourhood has at least, more than determine a surface.
+pub(crate) const MORE_THAN_FREE: usize = 2;
 
 /// A neighbourhood: some pieces, and what a surface is fitted to there.
 pub(crate) struct Look<'p> {
     pub pieces: &'p [u32],
-    pub hash: u64,
+    /// Tells it from other neighbourhoods, also when pieces are cut anew.
+    pub key: u64,
     /// Its distinct vertices.
     vertices: Vec<u32>,
+    /// Does each piece follow the one before?
+    is_strip: bool,
     sample: Option<Sample>,
 }
 
@@ -31,19 +35,27 @@ pub(crate) struct Sample {
 
 impl<'p> Look<'p> {
     pub fn at(view: View, pieces: &'p [u32]) -> Self {
-        let mut hasher = DefaultHasher::new();
-        pieces.hash(&mut hasher);
+        let keys = pieces.iter().map(|&p| view.pieces.keys[p as usize]);
         Self {
             pieces,
-            hash: hasher.finish(),
+            key: keys.fold(0, mixed),
             vertices: view.vertices_of(pieces),
+            is_strip: false,
             sample: None,
+        }
+    }
+
+    /// Pieces of which each follows the one before.
+    pub fn along(view: View, strip: &'p [u32]) -> Self {
+        Self {
+            is_strip: true,
+            ..Self::at(view, strip)
         }
     }
 
     /// Has it more vertices than determine a surface of a kind?
     pub fn can_tell(&self, kind: Kind) -> bool {
-        self.vertices.len() >= kind.degrees_of_freedom() + 2
+        self.vertices.len() >= kind.degrees_of_freedom() + MORE_THAN_FREE
     }
 
     /// `None` if all points are one.
@@ -55,7 +67,7 @@ impl<'p> Look<'p> {
                 cloud: Cloud::of(&points)?,
                 facets: view.facets(self.pieces),
                 points,
-                is_strip: self.pieces.len() == STRIP,
+                is_strip: self.is_strip,
             });
         }
         self.sample.as_ref()

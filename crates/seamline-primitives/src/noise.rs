@@ -9,7 +9,7 @@ use glam::DVec3;
 use seamline_mesh::Topology;
 
 use crate::Fitted;
-use crate::pieces::Triangles;
+use crate::triangles::Triangles;
 
 /// Share of the edges that is looked at first: fewer say little.
 const FIRST_SHARE: f64 = 0.12;

@@ -3,7 +3,8 @@
 use std::f64::consts::PI;
 
 use crate::hypothesis::{Hypothesis, View};
-use crate::pieces::{Link, NONE, Pieces};
+use crate::links::Link;
+use crate::pieces::{NONE, Pieces};
 
 /// Normals this near are one direction, where two accepted surfaces meet.
 const TANGENT: f64 = 2.0 / 180.0 * PI;

@@ -26,6 +26,25 @@ impl Rows {
         Self { starts, values }
     }
 
+    /// One more row.
+    pub fn push(&mut self, row: impl Iterator<Item = u32>) {
+        if self.starts.is_empty() {
+            self.starts.push(0);
+        }
+        self.values.extend(row);
+        self.starts.push(self.values.len() as u32);
+    }
+
+    /// Row `i` of these holds the rows of those that hold `i`, rising, `row_count` in all.
+    pub fn turned(&self, row_count: usize) -> Self {
+        let rows = (0..).zip(self.starts.windows(2));
+        let pairs = rows.flat_map(|(row, ends)| {
+            let values = &self.values[ends[0] as usize..ends[1] as usize];
+            values.iter().map(move |&value| (value, row))
+        });
+        Self::of_pairs(row_count, &pairs.collect::<Vec<_>>())
+    }
+
     /// One row.
     #[inline]
     pub fn row(&self, row: u32) -> &[u32] {

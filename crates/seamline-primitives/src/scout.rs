@@ -1,21 +1,44 @@
 //! One seed: surfaces fitted to the neighbourhoods of a piece, and grown as far as they hold.
 
-use std::collections::HashSet;
+use foldhash::HashMap;
 
 use crate::LOOSEST;
 use crate::around::{DISC_SHRINKS, MOST_IN_RING};
+use crate::few::a_few;
 use crate::grow::Soil;
 use crate::hypothesis::Hypothesis;
-use crate::look::Look;
+use crate::look::{Look, MORE_THAN_FREE};
 use crate::refine::refine;
 use crate::surface::{Kind, Surface};
+use crate::tried::{Asked, Question, Tried};
 
-/// Pieces of a disc that a fit looks at first.
-const DISC_SAMPLE: usize = 20;
-/// Fewest pieces of a surface that only comes near for others to be tried on them.
-const NEAR_PIECES: usize = 6;
+/// Pieces of a disc, or of what came near, that a fit looks at first.
+const SAMPLE: usize = 20;
+/// Fewest pieces of a surface that only comes near for others to be tried on them, on each rung: the looser the
+/// tolerance, the more of all neighbourhoods come near some surface.
+const NEAR_PIECES: [usize; 3] = [6, 12, 24];
 /// Pieces a strong hypothesis must have to spare its pieces from being seeds.
 pub(crate) const COVERS: usize = 8;
+
+/// Neighbourhoods of a seed, in the order they are tried in.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Way {
+    Discs,
+    /// Strips, and three pieces.
+    Strips,
+    Stars,
+    /// Pairs of stars, and rings.
+    Rings,
+}
+
+impl Way {
+    /// All ways of a rung. At the loosest tolerance nearly all small neighbourhoods are on some surface, and only large
+    /// surfaces are believed: stars and rings have no more to tell there than discs and strips.
+    pub fn all(rung: usize) -> &'static [Self] {
+        let all = &[Self::Discs, Self::Strips, Self::Stars, Self::Rings];
+        if rung == LOOSEST { &all[..2] } else { all }
+    }
+}
 
 /// What was found about a seed.
 pub(crate) struct About {
@@ -23,8 +46,8 @@ pub(crate) struct About {
     pub hypotheses: Vec<Hypothesis>,
     /// Pieces in the midst of discs that are on no surface.
     pub midst: Vec<u32>,
-    /// What was tried.
-    pub tried: Tried,
+    /// What was tried, and the least root mean square distance of a fit.
+    pub tried: HashMap<Question, f64>,
 }
 
 /// Looks for surfaces about one seed.
@@ -33,36 +56,38 @@ pub(crate) struct Scout<'s, 'a> {
     seed: u32,
     /// The best hypothesis of each kind so far.
     best: [Option<Hypothesis>; 4],
-    /// What was tried before, about other seeds.
-    before: &'s Tried,
-    tried: Tried,
+    /// What was tried before, about other seeds, and how many of them are known.
+    before: (&'s Tried, Asked),
+    tried: HashMap<Question, f64>,
     fits: bool,
 }
 
-/// Neighbourhoods, by their hash, that were tried for a kind.
-pub(crate) type Tried = HashSet<(u64, Kind)>;
-
 impl<'s, 'a> Scout<'s, 'a> {
-    pub fn new(soil: &'s mut Soil<'a>, seed: u32, before: &'s Tried) -> Self {
+    pub fn new(soil: &'s mut Soil<'a>, seed: u32, before: &'s Tried, turn: usize) -> Self {
+        let asked = Asked {
+            rung: soil.rung,
+            tolerance: soil.tolerance,
+            turn,
+        };
         Self {
             soil,
             seed,
             best: Default::default(),
-            before,
-            tried: Tried::new(),
+            before: (before, asked),
+            tried: HashMap::default(),
             fits: false,
         }
     }
 
-    /// The best hypothesis of each kind that holds the seed.
-    pub fn hypotheses(mut self, discs: bool) -> About {
-        let midst = if discs {
+    /// The best hypothesis of each kind that holds the seed, looked for in some ways.
+    pub fn hypotheses(mut self, ways: &[Way]) -> About {
+        let midst = if ways.contains(&Way::Discs) {
             self.on_discs()
         } else {
             Some(Vec::new())
         };
         if midst.is_some() {
-            self.on_neighbourhoods();
+            self.on_neighbourhoods(ways);
             self.on_what_came_near();
         }
         About {
@@ -72,22 +97,44 @@ impl<'s, 'a> Scout<'s, 'a> {
         }
     }
 
-    /// Tries the small neighbourhoods. At the loosest tolerance nearly all of them are on some surface, and only large
-    /// surfaces are believed: triples, pairs of stars and rings have no more to tell there.
-    fn on_neighbourhoods(&mut self) {
-        let loosest = self.soil.rung == LOOSEST;
-        if !loosest {
-            for triple in self.soil.around.triples(self.seed) {
-                self.attempt_all([Kind::Cylinder, Kind::Cone], &triple);
+    /// Tries the small neighbourhoods.
+    fn on_neighbourhoods(&mut self, ways: &[Way]) {
+        if ways.contains(&Way::Strips) {
+            if !self.is_loosest() {
+                self.on_triples();
             }
+            let strip = self.soil.around.strip(self.seed, self.soil.rung);
+            let look = Look::along(self.soil.view, &strip);
+            self.attempt_all([Kind::Cylinder, Kind::Cone], look);
         }
-        let strip = self.soil.around.strip(self.seed);
-        self.attempt_all([Kind::Cylinder, Kind::Cone], &strip);
+        let [on_stars, on_rings] = [Way::Stars, Way::Rings].map(|way| ways.contains(&way));
+        if !on_stars && !on_rings {
+            return;
+        }
         let stars = self.soil.around.stars(self.seed);
-        let spoke = self.on_stars(&stars);
-        if !loosest {
+        let spoke = if on_stars {
+            self.on_stars(&stars)
+        } else {
+            Default::default()
+        };
+        if on_rings {
             self.on_pairs(&stars, &spoke);
             self.on_rings(&stars, spoke);
+        }
+    }
+
+    fn is_loosest(&self) -> bool {
+        self.soil.rung == LOOSEST
+    }
+
+    /// Tries each three pieces, of which three triangles have too few vertices.
+    fn on_triples(&mut self) {
+        let fewest = Kind::Cylinder.degrees_of_freedom() + MORE_THAN_FREE;
+        for triple in self.soil.around.triples(self.seed) {
+            if self.soil.around.most_vertices(&triple) >= fewest {
+                let look = Look::at(self.soil.view, &triple);
+                self.attempt_all([Kind::Cylinder, Kind::Cone], look);
+            }
         }
     }
 
@@ -118,7 +165,8 @@ impl<'s, 'a> Scout<'s, 'a> {
                 if !kinds.is_empty() {
                     let mut pair = one.clone();
                     pair.extend(other.iter().filter(|p| !one.contains(p)));
-                    self.attempt_all(kinds, &pair);
+                    let look = Look::at(self.soil.view, &pair);
+                    self.attempt_all(kinds, look);
                 }
             }
         }
@@ -161,8 +209,10 @@ impl<'s, 'a> Scout<'s, 'a> {
             .flatten()
             .map(|h| h.pieces.clone())
             .collect();
-        for around in near.iter().filter(|pieces| pieces.len() >= NEAR_PIECES) {
-            let mut look = Look::at(self.soil.view, around);
+        let least = NEAR_PIECES[self.soil.rung];
+        for around in near.iter().filter(|pieces| pieces.len() >= least) {
+            let some: Vec<u32> = a_few(around, SAMPLE).copied().collect();
+            let mut look = Look::at(self.soil.view, &some);
             for kind in [Kind::Cone, Kind::Torus] {
                 self.attempt(kind, &mut look);
             }
@@ -179,7 +229,7 @@ impl<'s, 'a> Scout<'s, 'a> {
         }
         let mut kinds = Kind::CURVED.to_vec();
         for size in sizes.into_iter().filter(|&size| size > MOST_IN_RING) {
-            let step = size.div_ceil(DISC_SAMPLE);
+            let step = size.div_ceil(SAMPLE);
             let sample: Vec<u32> = disc[..size].iter().copied().step_by(step).collect();
             let mut look = Look::at(self.soil.view, &sample);
             let mut fitting = Vec::new();
@@ -207,8 +257,7 @@ impl<'s, 'a> Scout<'s, 'a> {
     }
 
     /// Fits the kinds of which there is more to be had.
-    fn attempt_all(&mut self, kinds: impl IntoIterator<Item = Kind>, pieces: &[u32]) {
-        let mut look = Look::at(self.soil.view, pieces);
+    fn attempt_all(&mut self, kinds: impl IntoIterator<Item = Kind>, mut look: Look) {
         for kind in kinds {
             if !self.settled(kind) {
                 self.attempt(kind, &mut look);
@@ -221,8 +270,9 @@ impl<'s, 'a> Scout<'s, 'a> {
         if !look.can_tell(kind) {
             return false;
         }
-        let key = (look.hash, kind);
-        if self.before.contains(&key) || !self.tried.insert(key) {
+        let question = (look.key, kind);
+        let (before, asked) = self.before;
+        if before.knows(question, asked) || self.tried.contains_key(&question) {
             return true;
         }
         let around = look.pieces;
@@ -230,12 +280,15 @@ impl<'s, 'a> Scout<'s, 'a> {
             view, tolerance, ..
         } = *self.soil;
         let Some(sample) = look.sample(view) else {
+            self.tried.insert(question, f64::INFINITY);
             return true;
         };
+        let mut nearest = f64::INFINITY;
         for guess in sample.guesses(kind) {
             let Some(fit) = refine(guess, &sample.cloud, tolerance) else {
                 continue;
             };
+            nearest = nearest.min(fit.rms);
             if fit.rms > tolerance || is_degenerate(&fit.surface) {
                 continue;
             }
@@ -258,6 +311,7 @@ impl<'s, 'a> Scout<'s, 'a> {
                 }
             }
         }
+        self.tried.insert(question, nearest);
         true
     }
 }

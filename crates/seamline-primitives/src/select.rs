@@ -1,7 +1,9 @@
 //! Which hypotheses to believe: greedily by evidence, strong ones first, weak ones where their borders
 //! speak for them.
 
-use std::collections::{BinaryHeap, HashSet};
+use std::collections::BinaryHeap;
+
+use foldhash::HashSet;
 
 use crate::hypothesis::{Hypothesis, View};
 use crate::pieces::NONE;

@@ -3,8 +3,9 @@
 use glam::DVec3;
 use rayon::prelude::*;
 
+use crate::climb::least_evidence;
 use crate::few::a_few;
-use crate::guess::{cone_about, guesses};
+use crate::guess::{Facets, cone_about, cylinder_about, guesses};
 use crate::hypothesis::{Hypothesis, View};
 use crate::parts::{Form, Parts};
 use crate::pieces::NONE;
@@ -17,7 +18,7 @@ const SAME_DIRECTION: f64 = 1e-6;
 /// Most directions beside a part that are tried.
 const MOST_AXES: usize = 8;
 /// Most vertices a fit looks at.
-const MOST_POINTS: usize = 2000;
+const MOST_POINTS: usize = 400;
 
 /// Accepts the free forms that prove to be of one surface as a whole. True if there was any.
 pub(crate) fn accept_wholes(
@@ -45,51 +46,118 @@ pub(crate) fn accept_wholes(
 /// The surface of a part that was taken for a free form, if one fits all of it: a chamfer is one strip of a cone,
 /// which proves nothing as long as one does not know where it ends.
 ///
-/// The simplest that fits is taken: a strip between two circles lies on a sphere and on tori as well.
+/// The simplest that fits is taken: a strip between two circles lies on a sphere and on tori as well. But a few triangles
+/// of a cone about the axis of what lies beside lie on some cylinder that leans, too; it is the cone.
 pub(crate) fn whole(
     view: View,
     regions: &Regions,
     pieces: &[u32],
     tolerance: f64,
 ) -> Option<Hypothesis> {
-    let &first = pieces.first()?;
     if let Some(found) = plane(view, pieces, tolerance) {
         return Some(found);
     }
     let vertices = view.vertices_of(pieces);
     let few = a_few(&vertices, MOST_POINTS);
-    let points: Vec<DVec3> = few.map(|&v| view.ground.positions[v as usize]).collect();
-    let facets = [view.facets(pieces), view.linked_facets(pieces)];
+    let part = Part {
+        view,
+        pieces,
+        points: few.map(|&v| view.ground.positions[v as usize]).collect(),
+        facets: [view.facets(pieces), view.linked_facets(pieces)],
+        tolerance,
+    };
     let axes = axes_beside(view, regions, pieces);
-    for kind in [Kind::Cylinder, Kind::Cone, Kind::Sphere, Kind::Torus] {
-        if points.len() <= kind.degrees_of_freedom() {
-            continue;
-        }
-        let mut from = Vec::new();
-        if kind == Kind::Cone {
-            from.extend(axes.iter().filter_map(|&axis| cone_about(axis, &points)));
-        }
-        from.extend(
-            facets
-                .iter()
-                .flat_map(|of| guesses(kind, &of.between(&points))),
-        );
-        for guess in from {
-            let Some(fit) = refine_patiently(guess, &points, tolerance) else {
-                continue;
-            };
-            let surface = fit.surface;
-            let at = surface.gradient(view.pieces.centroids[first as usize]);
-            let sign = at.dot(view.pieces.normals[first as usize]).signum();
-            if pieces
-                .iter()
-                .all(|&p| view.fits(p, &surface, sign, tolerance))
-            {
-                return Some(view.weigh(surface, sign, pieces.to_vec(), tolerance));
-            }
+    // An axis beside is known better than a few triangles can tell.
+    let known = |about: fn(DVec3, &[DVec3]) -> Option<Surface>| -> Vec<Surface> {
+        let surfaces = axes.iter().filter_map(|&axis| about(axis, &part.points));
+        surfaces.collect()
+    };
+    if let Some(found) = part.exactly_on(&known(cylinder_about)) {
+        return Some(found);
+    }
+    let cylinder = part.fitting(part.guesses(Kind::Cylinder));
+    let leans = |h: &Hypothesis| !axes.iter().any(|axis| is_along(*axis, h.surface.axis));
+    if part.determines(Kind::Cone) && cylinder.as_ref().is_none_or(leans) {
+        let cones = known(cone_about);
+        let cone = part.exactly_on(&cones).or_else(|| part.fitting(cones));
+        if cone.is_some() {
+            return cone;
         }
     }
-    None
+    cylinder
+        .or_else(|| part.fitting(part.guesses(Kind::Cone)))
+        .or_else(|| part.fitting(part.guesses(Kind::Sphere)))
+        .or_else(|| part.fitting(part.guesses(Kind::Torus)))
+}
+
+/// A part and what surfaces are fitted to.
+struct Part<'a> {
+    view: View<'a>,
+    pieces: &'a [u32],
+    points: Vec<DVec3>,
+    facets: [Facets; 2],
+    tolerance: f64,
+}
+
+impl Part<'_> {
+    /// Has it more vertices than a surface of a kind has degrees of freedom?
+    fn determines(&self, kind: Kind) -> bool {
+        self.points.len() > kind.degrees_of_freedom()
+    }
+
+    fn guesses(&self, kind: Kind) -> Vec<Surface> {
+        let facets = self.facets.iter().filter(|_| self.determines(kind));
+        facets
+            .flat_map(|of| guesses(kind, &of.between(&self.points)))
+            .collect()
+    }
+
+    /// The first of some surfaces that all of it lies on once it is fitted.
+    fn fitting(&self, from: Vec<Surface>) -> Option<Hypothesis> {
+        let fitted = |guess| refine_patiently(guess, &self.points, self.tolerance);
+        from.into_iter()
+            .find_map(|guess| self.on(fitted(guess)?.surface))
+    }
+
+    /// The first of some surfaces that all of it lies on exactly, as it is.
+    fn exactly_on(&self, surfaces: &[Surface]) -> Option<Hypothesis> {
+        let exact = |s: &&Surface| s.rms(&self.points) <= self.view.ground.precision;
+        let known = surfaces.iter().filter(|s| self.determines(s.kind));
+        known.filter(exact).find_map(|&surface| self.on(surface))
+    }
+
+    /// All of it on a surface, if it lies there.
+    fn on(&self, surface: Surface) -> Option<Hypothesis> {
+        let Self {
+            view,
+            pieces,
+            tolerance,
+            ..
+        } = *self;
+        let &first = pieces.first()?;
+        let at = surface.gradient(view.pieces.centroids[first as usize]);
+        let sign = at.dot(view.pieces.normals[first as usize]).signum();
+        let fits = |&piece: &u32| view.fits(piece, &surface, sign, tolerance);
+        let all = pieces.iter().all(fits);
+        all.then(|| view.weigh(surface, sign, pieces.to_vec(), tolerance))
+    }
+}
+
+fn is_along(a: DVec3, b: DVec3) -> bool {
+    a.cross(b).length() < SAME_DIRECTION
+}
+
+/// The surface that a free form is told to be: one that fits all of it exactly, or, farther out, with as much evidence as is
+/// believed there whatever lies beside it.
+pub(crate) fn told(
+    view: View,
+    regions: &Regions,
+    pieces: &[u32],
+    [exactly, nearly]: [f64; 2],
+) -> Option<Hypothesis> {
+    let believed = |h: &Hypothesis| h.strong && h.evidence >= least_evidence(1, h.surface.kind);
+    whole(view, regions, pieces, exactly)
+        .or_else(|| whole(view, regions, pieces, nearly).filter(believed))
 }
 
 /// Directions of the surfaces beside pieces, over walls too: chamfers are about the axes of what they end.
@@ -108,7 +176,7 @@ fn axes_beside(view: View, regions: &Regions, pieces: &[u32]) -> Vec<DVec3> {
     let mut axes: Vec<DVec3> = Vec::new();
     for region in beside {
         let surface = &regions.all[region as usize].surface;
-        let known = |axis: &DVec3| axis.cross(surface.axis).length() < SAME_DIRECTION;
+        let known = |axis: &DVec3| is_along(*axis, surface.axis);
         if surface.kind != Kind::Sphere && !axes.iter().any(known) {
             axes.push(surface.axis);
         }

@@ -19,6 +19,9 @@ use clap::Parser;
 
 /// The allocator of the C library raises the size from which memory goes back to the system as large arrays come and
 /// go, until the program holds far more than it uses, and more than the daemon's limit.
+///
+/// The second series of mimalloc, since the third takes as long and holds up to twice as much of a mesh of 15,000 or 100,000
+/// triangles (measured at 0.1.52).
 #[global_allocator]
 static ALLOCATOR: mimalloc::MiMalloc = mimalloc::MiMalloc;
 

@@ -9,6 +9,7 @@ use std::fs::File;
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
+use std::thread;
 
 use schemars::JsonSchema;
 use seamline_ecs::settings::SettingsError;
@@ -45,7 +46,7 @@ pub enum OutputFile {
 }
 
 impl OutputFile {
-    /// All of them, in the order they are written. The report comes last: where it is, the others are.
+    /// All of them.
     pub const ALL: [Self; 4] = [Self::Labels, Self::Patches, Self::Boundaries, Self::Report];
 
     /// The word for it in configurations and on the command line.
@@ -196,11 +197,22 @@ pub fn write_results(
 ) -> Result<PathBuf, OutputError> {
     let place = result_folder(destination_parent, input_name);
     let folder = folder::WholeFolder::begin(&place)?;
-    for file in OutputFile::ALL.into_iter().filter(|&file| what.has(file)) {
+    let write = |file: OutputFile| {
         let path = folder.path().join(file.file_name());
         write_file(&path, |out| write_one(file, out, mesh, segmentation, about))
-            .map_err(OutputError::io(&place.join(file.file_name())))?;
-    }
+            .map_err(OutputError::io(&place.join(file.file_name())))
+    };
+    let write = &write;
+    // Much of the time is spent waiting for the disk, file by file.
+    thread::scope(|scope| {
+        let files = OutputFile::ALL.into_iter().filter(|&file| what.has(file));
+        let writing: Vec<_> = files.map(|file| scope.spawn(move || write(file))).collect();
+        let written = writing.into_iter().map(|file| {
+            file.join()
+                .unwrap_or_else(|panic| std::panic::resume_unwind(panic))
+        });
+        written.collect::<Result<Vec<()>, _>>()
+    })?;
     folder.commit()?;
     Ok(place)
 }

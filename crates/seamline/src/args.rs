@@ -95,7 +95,7 @@ pub struct ResultArgs {
     /// Folder the results go to: part.stl gives DIR/part.stl.seamline/
     #[arg(short, long, value_name = "DIR", default_value = ".")]
     pub output: PathBuf,
-    /// Files to write, with commas: labels, patches, boundaries, report [default: all]
+    /// Files to write, with commas, of labels,patches,boundaries,report; without it, all four
     #[arg(long, value_name = "LIST")]
     pub write: Option<String>,
     /// Print one report a line on standard output

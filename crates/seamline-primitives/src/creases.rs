@@ -62,7 +62,7 @@ fn cut(ground: Ground, of_face: &[u32], edges: &[(u32, [u32; 2])]) -> Vec<(u32, 
     let angles = CreaseAngles { ground, of_face };
     let turn = |&(edge, faces): &(u32, [u32; 2])| (edge, angles.at(edge, faces));
     // Creases are sought among all edges only where curves do not tell of them.
-    let on_curves: HashSet<u32> = curves.iter().flat_map(|c| c.edges.clone()).collect();
+    let on_curves: HashSet<u32> = curves.iter().flat_map(|c| &c.edges).copied().collect();
     let asked = |&&(edge, _): &&(u32, _)| ground.noise > 0.0 || on_curves.contains(&edge);
     let turns: HashMap<u32, f64> = edges.par_iter().filter(asked).map(turn).collect();
     let some: Vec<(u32, [u32; 2])> = a_few(edges, MOST_FOR_MEDIAN).copied().collect();

@@ -35,7 +35,7 @@ pub(crate) fn surfaces(
     let cut = pieces_of_patches(view, of_face, part_of.len());
     let told = |pieces| {
         let found = told(view, regions, pieces, tolerances);
-        found.map(|found| described(view, &found))
+        found.map(|found| as_it_is(view, &found))
     };
     let of_patch = |(patch, &part): (usize, &u32)| match parts.forms.get(part as usize) {
         Some(Form::Surface(region)) => {
@@ -45,7 +45,7 @@ pub(crate) fn surfaces(
                 .then(|| whole(view, regions, &region.pieces, tolerances[0]))
                 .flatten();
             Some(match simplest {
-                Some(simplest) => described(view, &simplest),
+                Some(simplest) => as_it_is(view, &simplest),
                 None => fitted(view, region),
             })
         }
@@ -96,11 +96,12 @@ fn fitted(view: View, region: &Hypothesis) -> Fitted {
     let surface = again
         .filter(|surface| surface.rms(&points) <= region.surface.rms(&points))
         .unwrap_or(region.surface);
-    let region = Hypothesis {
-        surface,
-        ..region.clone()
-    };
-    described(view, &region)
+    described(view, region, surface, &points)
+}
+
+/// A surface that fits as it is.
+fn as_it_is(view: View, found: &Hypothesis) -> Fitted {
+    described(view, found, found.surface, &points(view, found))
 }
 
 fn points(view: View, region: &Hypothesis) -> Vec<DVec3> {
@@ -110,18 +111,16 @@ fn points(view: View, region: &Hypothesis) -> Vec<DVec3> {
         .collect()
 }
 
-/// What is told of a surface. A cone that a cylinder explains as well is one.
-fn described(view: View, region: &Hypothesis) -> Fitted {
-    let points = points(view, region);
-    let rms = |surface: &Surface| surface.rms(&points);
-    let mut surface = region.surface;
+/// What is told of the surface of a region's vertices. A cone that a cylinder explains as well is one.
+fn described(view: View, region: &Hypothesis, mut surface: Surface, points: &[DVec3]) -> Fitted {
+    let rms = |surface: &Surface| surface.rms(points);
     if surface.kind == Kind::Cone {
         let straight = Surface {
             kind: Kind::Cylinder,
             b: 0.0,
             ..surface
         };
-        let few: Vec<DVec3> = a_few(&points, MOST_POINTS).copied().collect();
+        let few: Vec<DVec3> = a_few(points, MOST_POINTS).copied().collect();
         let explains = |s: &Surface| rms(s) <= view.ground.precision.max(AS_WELL * rms(&surface));
         surface = refine_patiently(straight, &few, 0.0)
             .map(|fit| fit.surface)

@@ -47,8 +47,7 @@ impl Seeds {
         let mut all: Vec<u32> = (0..pieces.count() as u32)
             .filter(|&p| around.open[p as usize] && around.neighbours(p).next().is_some())
             .collect();
-        all.sort_by(|&a, &b| area(b).total_cmp(&area(a)));
-        all.reverse();
+        all.sort_unstable_by(|&a, &b| area(a).total_cmp(&area(b)).then(b.cmp(&a)));
         Self {
             least: 1 + all.len() / SEEDS[rung],
             left: all,

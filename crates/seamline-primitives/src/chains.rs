@@ -19,7 +19,7 @@ use crate::fans::{fan, straightest};
 /// Chains that count of a part, as many as chance is expected to give at most. The borders of a coarse loft are expected
 /// .004 times, so that a tenth of this loses them; ten times this cuts smooth blades and bottles.
 const FALSE_ALARMS: f64 = 0.01;
-/// The same of chains that count though the surface does not turn there. At `FALSE_ALARMS` rows inside springs, ducts and
+/// The same of chains that count though the surface does not turn there, and of rings, which have to turn as well. At `FALSE_ALARMS` rows inside springs, ducts and
 /// handles count: over two sets of 132 and 161 meshes ARI falls by .009 and .002.
 const FALSE_ALARMS_IF_SMOOTH: f64 = 1e-6;
 /// Degrees a chain turns at most at a vertex, measured on the surface: farther, and it ends there.
@@ -44,10 +44,18 @@ type Edges = [(u32, [u32; 2])];
 /// A chain of edges that counts.
 pub(crate) struct Curve {
     pub edges: Vec<u32>,
-    /// Does it count though the surface does not turn there?
-    pub though_smooth: bool,
-    /// Does it go round a tube? Rings of a tessellation do, whatever they are.
-    pub closed: bool,
+    pub counts: Counts,
+}
+
+/// Where a chain counts as a border.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Counts {
+    /// Where the surface turns.
+    IfItTurns,
+    /// It goes round a tube, as the rows of a tessellation do: where the surface turns much.
+    IfItTurnsMuch,
+    /// Anywhere.
+    ThoughSmooth,
 }
 
 /// A chain of edges each of which goes straight on with the next.
@@ -128,32 +136,40 @@ impl<'a> Chains<'a> {
         let [mut taken, mut stops] = [HashSet::default(), HashSet::default()];
         let mut tests = None;
         for _ in 0..MOST_ROUNDS {
-            let before = curves.len();
+            let mut ends_others = Vec::new();
             let all = self.all(&taken, &stops);
             let tests = *tests.get_or_insert(all.len() as f64);
             for chain in all.into_iter().filter(|c| c.closed || c.ends == 2) {
                 let false_alarms = tests * self.chance(&chain);
-                if false_alarms < FALSE_ALARMS {
-                    // Rings round a tube close whatever they are.
-                    let though_smooth = !chain.closed
-                        && false_alarms < FALSE_ALARMS_IF_SMOOTH
-                        && self.share_in_rows(&chain) < IN_ROWS;
-                    curves.push(Curve {
-                        edges: chain.edges,
-                        though_smooth,
-                        closed: chain.closed,
-                    });
+                if false_alarms >= FALSE_ALARMS {
+                    continue;
+                }
+                ends_others.extend(chain.edges.iter().copied());
+                if let Some(counts) = self.counts(&chain, false_alarms) {
+                    let edges = chain.edges;
+                    curves.push(Curve { edges, counts });
                 }
             }
-            if curves.len() == before {
+            if ends_others.is_empty() {
                 break;
             }
-            for &edge in curves[before..].iter().flat_map(|curve| &curve.edges) {
+            for edge in ends_others {
                 taken.insert(edge);
                 stops.extend(self.topology.edge_vertices[edge as usize]);
             }
         }
         curves
+    }
+
+    /// Where a chain that chance would hardly give counts. `None` for a ring that may be a row of a tessellation.
+    fn counts(&self, chain: &Chain, false_alarms: f64) -> Option<Counts> {
+        let sure = false_alarms < FALSE_ALARMS_IF_SMOOTH && self.share_in_rows(chain) < IN_ROWS;
+        match (chain.closed, sure) {
+            (true, false) => None,
+            (true, true) => Some(Counts::IfItTurnsMuch),
+            (false, true) => Some(Counts::ThoughSmooth),
+            (false, false) => Some(Counts::IfItTurns),
+        }
     }
 
     /// How likely a chain of as many edges is that goes as straight on, or turns as evenly.
@@ -311,7 +327,7 @@ mod tests {
         let (positions, topology) = sheet(0.3, Some(9));
         let found = curves(&positions, &topology);
         assert_eq!(found.len(), 1);
-        assert!(found[0].though_smooth);
+        assert_eq!(found[0].counts, Counts::ThoughSmooth);
         assert_eq!(found[0].edges.len(), HIGH as usize);
         for &edge in &found[0].edges {
             let ends = topology.edge_vertices[edge as usize];

@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use glam::DVec3;
 
 use crate::ground::Ground;
-use crate::linear::solve;
+use crate::quadric;
 
 /// How far a side reaches from its edge, in steps over edges.
 const STEPS: usize = 3;
@@ -75,24 +75,8 @@ impl CreaseAngles<'_> {
             .iter()
             .map(|x| x.truncate().length())
             .fold(0.0, f64::max);
-        let mut m = [[0.0; 6]; 6];
-        let mut right = [0.0; 6];
-        for x in &local {
-            let x = *x / radius;
-            let weight = 1.0 / (0.05 + x.truncate().length_squared());
-            let row = [1.0, x.x, x.y, x.x * x.x, x.x * x.y, x.y * x.y];
-            for i in 0..6 {
-                right[i] += weight * row[i] * x.z;
-                for j in 0..=i {
-                    m[i][j] += weight * row[i] * row[j];
-                }
-            }
-        }
-        let trace: f64 = (0..6).map(|i| m[i][i]).sum();
-        for (i, row) in m.iter_mut().enumerate() {
-            row[i] += 1e-9 * trace;
-        }
-        solve(m, right).map(|q| q[2])
+        let near = |x: DVec3| 1.0 / (0.05 + x.truncate().length_squared());
+        quadric::fit(local.iter().map(|&x| x / radius), near).map(|q| q[2])
     }
 
     /// Vertices of the faces of a side, nearest first by steps.

@@ -58,10 +58,12 @@ mod noise;
 mod parts;
 mod patches;
 mod pieces;
+mod quadric;
 mod refine;
 mod regions;
 mod relax;
 mod rows;
+mod scatter;
 mod scout;
 mod search;
 mod seeds;
@@ -72,7 +74,6 @@ mod tiles;
 mod triangles;
 mod tried;
 mod trust;
-
 mod unite;
 mod whole;
 
@@ -175,7 +176,7 @@ pub fn find(positions: &[DVec3], topology: &Topology, farthest: f64) -> Found {
     found
 }
 
-/// The same where vertices are noisy. `None` where there is no telling how noisy.
+/// The same where vertices are noisy. `None` where they are not, or there is no telling how noisy.
 fn through_noise(stored: Ground) -> Option<Found> {
     // Less than what storing them takes away cannot be told from it.
     let with = |noise: f64| {
@@ -199,6 +200,9 @@ fn through_noise(stored: Ground) -> Option<Found> {
             _ => break,
         }
         found = look(ground);
+    }
+    if !scatter::is_noise(ground) {
+        return None;
     }
     let mut patches = Patches {
         of_face: found.of_face,

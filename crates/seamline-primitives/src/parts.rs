@@ -126,6 +126,8 @@ struct Island {
     pieces: usize,
     /// Length of smooth border with each neighbour.
     beside: BTreeMap<u32, f64>,
+    /// Length of border with each neighbour, walls as well.
+    about: BTreeMap<u32, f64>,
 }
 
 /// Least share of an island's smooth border with the component it joins.
@@ -136,6 +138,10 @@ const TAKES_AREA: f64 = 3.0;
 /// A free form of so few pieces is an island, and a surface of so little evidence.
 const FEW_PIECES: usize = 8;
 const LITTLE_EVIDENCE: i64 = 25;
+/// A crumb is a plane or a free form of so few pieces, smaller than those of the free form about it on average, which has
+/// this share of its border, walls among it: slivers of a mesher may fold back on what they lie on.
+const CRUMB_PIECES: usize = 2;
+const CRUMB_SHARE: f64 = 0.5;
 
 /// Small doubtful parts join the free form they lie in, smallest first.
 pub(crate) fn join_islands(view: View, regions: &Regions, parts: &mut Parts) {
@@ -156,11 +162,17 @@ fn join_islands_once(view: View, regions: &Regions, parts: &mut Parts) -> bool {
         let vertices = pieces.vertices.row(piece as u32).len();
         most_vertices[part as usize] = vertices.max(most_vertices[part as usize]);
     }
-    for link in pieces.links.iter().filter(|link| !link.wall) {
+    for link in &pieces.links {
         let [a, b] = link.pieces.map(|p| parts.of_piece[p as usize]);
-        if a != b {
-            *all[a as usize].beside.entry(b).or_default() += link.length;
-            *all[b as usize].beside.entry(a).or_default() += link.length;
+        if a == b {
+            continue;
+        }
+        for (part, other) in [(a, b), (b, a)] {
+            let part = &mut all[part as usize];
+            *part.about.entry(other).or_default() += link.length;
+            if !link.wall {
+                *part.beside.entry(other).or_default() += link.length;
+            }
         }
     }
     let is_island = |part: usize| match parts.forms[part] {
@@ -171,8 +183,11 @@ fn join_islands_once(view: View, regions: &Regions, parts: &mut Parts) -> bool {
         }
         Form::Free => all[part].pieces <= FEW_PIECES,
     };
+    let may_be_crumb = |part: usize| {
+        !matches!(parts.forms[part], Form::Surface(_)) && all[part].pieces <= CRUMB_PIECES
+    };
     let mut islands: Vec<usize> = (0..all.len())
-        .filter(|&part| all[part].pieces > 0 && is_island(part))
+        .filter(|&part| all[part].pieces > 0 && (is_island(part) || may_be_crumb(part)))
         .collect();
     islands.sort_by(|&a, &b| all[a].area.total_cmp(&all[b].area));
     let mut into: Vec<u32> = (0..all.len() as u32).collect();
@@ -181,20 +196,26 @@ fn join_islands_once(view: View, regions: &Regions, parts: &mut Parts) -> bool {
         if into[island] != island as u32 {
             continue;
         }
-        let smooth: f64 = all[island].beside.values().sum();
-        let takes = |&(part, length): &(&u32, &f64)| {
-            let other = &all[*part as usize];
-            parts.forms[*part as usize] == Form::Free
-                && into[*part as usize] == *part
+        let own = &all[island];
+        let takes = |part: u32| {
+            let other = &all[part as usize];
+            parts.forms[part as usize] == Form::Free
+                && into[part as usize] == part
                 && other.pieces >= TAKES_FROM
-                && other.area >= TAKES_AREA * all[island].area
-                && *length >= ISLAND_SHARE * smooth
+                && other.area >= TAKES_AREA * own.area
         };
-        let taker = all[island]
-            .beside
-            .iter()
-            .filter(takes)
-            .max_by(|a, b| a.1.total_cmp(b.1));
+        let is_smaller = |part: u32| {
+            let other = &all[part as usize];
+            own.area * (other.pieces as f64) < other.area
+        };
+        let [smooth, whole] = [&own.beside, &own.about].map(|all| all.values().sum::<f64>());
+        let beside = own.beside.iter().filter(|&(&part, &length)| {
+            takes(part) && is_island(island) && length >= ISLAND_SHARE * smooth
+        });
+        let about = own.about.iter().filter(|&(&part, &length)| {
+            takes(part) && may_be_crumb(island) && is_smaller(part) && length >= CRUMB_SHARE * whole
+        });
+        let taker = beside.chain(about).max_by(|a, b| a.1.total_cmp(b.1));
         if let Some((&taker, _)) = taker {
             into[island] = taker;
             any = true;

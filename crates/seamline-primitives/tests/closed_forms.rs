@@ -191,6 +191,14 @@ fn the_noise_of_vertices_is_told_and_its_size() {
     }
 }
 
+/// Its flattest pairs of triangles are off one plane by what it bends, which would be noise of some size.
+#[test]
+fn a_smooth_egg_is_not_taken_for_noisy() {
+    let egg =
+        shapes::icosphere(4).map(|x| x * DVec3::new(1.0, 1.0, 1.3 + 0.2 * x.z - 0.1 * x.z * x.z));
+    assert_eq!(found(&egg).0.noise, 0.0);
+}
+
 #[test]
 fn facets_as_narrow_as_the_noise_hide_nothing_of_it() {
     is_told(0.02, 50);

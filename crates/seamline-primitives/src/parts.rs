@@ -43,6 +43,9 @@ impl Parts {
 
 /// How many times larger than each smooth neighbour a flat piece is a plane of its own.
 const MUCH_LARGER: f64 = 4.0;
+/// The same of a piece of five vertices and more that may be a strip between two rulings. The first strips of involutes
+/// are up to 9 times as large as the next.
+const STRIP_LARGER: f64 = 10.0;
 /// Share of its smooth border along which a flat piece that is a plane of its own touches accepted surfaces.
 const TANGENT_SHARE: f64 = 0.5;
 
@@ -91,9 +94,10 @@ fn is_plane(view: View, regions: &Regions, piece: u32, tolerance: f64) -> bool {
     if !view.is_flat(piece, tolerance) {
         return false;
     }
-    if vertices.len() >= 5 {
-        // What has all its vertices on two lines is a strip between two rulings.
-        return is_certain_plane(view.ground.positions, vertices, tolerance);
+    // What has all its vertices on two lines may be a strip between two rulings.
+    let is_strip = vertices.len() >= 5;
+    if is_strip && is_certain_plane(view.ground.positions, vertices, tolerance) {
+        return true;
     }
     let [mut largest, mut tangent, mut smooth] = [0.0f64; 3];
     for &link in pieces.around.row(piece) {
@@ -115,7 +119,8 @@ fn is_plane(view: View, regions: &Regions, piece: u32, tolerance: f64) -> bool {
         }
     }
     // A triangle is flat whatever it lies on: among slivers of a free form many are larger than all about them.
-    let large = vertices.len() > 3 && pieces.areas[piece as usize] > MUCH_LARGER * largest;
+    let least = if is_strip { STRIP_LARGER } else { MUCH_LARGER };
+    let large = vertices.len() > 3 && pieces.areas[piece as usize] > least * largest;
     large || tangent > TANGENT_SHARE * smooth
 }
 

@@ -22,7 +22,8 @@
 //!    (`snap`).
 //!
 //! Where nothing is exact, the `noise` of the vertices is estimated and the same is done with it as the precision;
-//! patches then compete for the faces between them (`relax`).
+//! patches then compete for the faces between them (`relax`). Unless the vertices do not scatter about the `quadric`
+//! through their neighbours (`scatter`): then they are not noisy.
 //!
 //! Nothing here knows how a part lies: results do not change when it is turned, moved or scaled, but for ties.
 //! All lengths inside are in diagonals of the bounding box. Thresholds were chosen on CAD meshes with ground truth;

@@ -17,6 +17,8 @@ const MOST_ASKED: usize = 2000;
 const FEWEST_ASKED: usize = 50;
 /// Fewest vertices a quadric goes through: of the degrees of freedom six are its own.
 const FEWEST_ABOUT: usize = 14;
+/// Most: the neighbours of a hub are a whole fan, and so are theirs.
+const MOST_ABOUT: usize = 200;
 /// Share of the vertices, the nearest to their quadrics, among which these leave the noise and nothing else: on a mesh
 /// of sharp edges few vertices have all those about them on one face.
 const NEAREST: f64 = 0.25;
@@ -44,13 +46,17 @@ pub(crate) fn is_noise(ground: Ground) -> bool {
     (hardly as f64) < TOO_MANY * off.len() as f64
 }
 
-/// Standard deviation of a vertex, its neighbours and theirs from the quadric nearest to them; `None` of too few.
+/// Standard deviation of a vertex, its neighbours and theirs from the quadric nearest to them; `None` of too few or many.
 fn off_quadric(ground: Ground, vertex: u32) -> Option<f64> {
     let topology = ground.topology;
     let around = |v: u32| {
         let edges = topology.vertex_edges.row(v as usize).iter();
         edges.map(move |&edge| topology.far_end(edge, v))
     };
+    let valence = |v: u32| topology.vertex_edges.row(v as usize).len();
+    if around(vertex).map(valence).sum::<usize>() > MOST_ABOUT {
+        return None;
+    }
     let mut about: Vec<u32> = around(vertex)
         .flat_map(around)
         .chain(around(vertex))

@@ -15,9 +15,9 @@
 //! 5. `trust`: a surface on which its vertices lie exactly is believed; one they come near only where it ends
 //!    as surfaces do. What is left is one surface as a whole (`whole`), or none.
 //! 6. `parts`: what no surface explains is united to free forms, and these are cut (`creases`) along chains of edges that
-//!    go straighter on than chance lets them (`chains`, `fans`), where the surface itself turns and not the tessellation
-//!    only (`crease_angles`), or where nothing else beside them is as straight. In noise, along paths (`crease_paths`).
-//!    Pieces too alike or too small are united again (`crease_pieces`).
+//!    go straighter on than chance and what is beside them let them (`chains`, `fans`), where the surface itself turns and
+//!    not the tessellation only (`crease_angles`), or anywhere if chance is hardly possible. In noise, along paths
+//!    (`crease_paths`). Pieces too alike or too small are united again (`crease_pieces`).
 //! 7. `describe`: each surface is fitted once more to all its vertices, and what was designed equal comes out equal
 //!    (`snap`).
 //!

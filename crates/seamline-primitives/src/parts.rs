@@ -43,8 +43,8 @@ impl Parts {
 
 /// How many times larger than each smooth neighbour a flat piece is a plane of its own.
 const MUCH_LARGER: f64 = 4.0;
-/// The same of a piece of five vertices and more that may be a strip between two rulings. The first strips of involutes
-/// are up to 9 times as large as the next.
+/// The same of a piece of five vertices and more that may be a strip between two rulings; where all about it are told
+/// already, of any size. The first strips of involutes are up to 9 times as large as the next.
 const STRIP_LARGER: f64 = 10.0;
 /// Share of its smooth border along which a flat piece that is a plane of its own touches accepted surfaces.
 const TANGENT_SHARE: f64 = 0.5;
@@ -95,8 +95,8 @@ fn is_plane(view: View, regions: &Regions, piece: u32, tolerance: f64) -> bool {
         return false;
     }
     // What has all its vertices on two lines may be a strip between two rulings.
-    let is_strip = vertices.len() >= 5;
-    if is_strip && is_certain_plane(view.ground.positions, vertices, tolerance) {
+    let may_be_strip = vertices.len() >= 5;
+    if may_be_strip && is_certain_plane(view.ground.positions, vertices, tolerance) {
         return true;
     }
     let [mut largest, mut tangent, mut smooth] = [0.0f64; 3];
@@ -119,7 +119,11 @@ fn is_plane(view: View, regions: &Regions, piece: u32, tolerance: f64) -> bool {
         }
     }
     // A triangle is flat whatever it lies on: among slivers of a free form many are larger than all about them.
-    let least = if is_strip { STRIP_LARGER } else { MUCH_LARGER };
+    let least = if may_be_strip {
+        STRIP_LARGER
+    } else {
+        MUCH_LARGER
+    };
     let large = vertices.len() > 3 && pieces.areas[piece as usize] > least * largest;
     large || tangent > TANGENT_SHARE * smooth
 }
@@ -131,7 +135,7 @@ struct Island {
     pieces: usize,
     /// Length of smooth border with each neighbour.
     beside: BTreeMap<u32, f64>,
-    /// Length of border with each neighbour, walls as well.
+    /// Length of border of what may be a crumb with each neighbour, walls as well.
     about: BTreeMap<u32, f64>,
 }
 
@@ -174,7 +178,9 @@ fn join_islands_once(view: View, regions: &Regions, parts: &mut Parts) -> bool {
         }
         for (part, other) in [(a, b), (b, a)] {
             let part = &mut all[part as usize];
-            *part.about.entry(other).or_default() += link.length;
+            if part.pieces <= CRUMB_PIECES {
+                *part.about.entry(other).or_default() += link.length;
+            }
             if !link.wall {
                 *part.beside.entry(other).or_default() += link.length;
             }

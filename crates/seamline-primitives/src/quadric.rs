@@ -15,7 +15,7 @@ fn monomials(x: DVec3) -> Quadric {
     [1.0, x.x, x.y, x.x * x.x, x.x * x.y, x.y * x.y]
 }
 
-/// The quadric nearest in height (z) to points within a unit of the origin, each counted by its weight.
+/// The quadric nearest in height (z) to points whose x and y are within a unit, each counted by its weight.
 pub(crate) fn fit(
     points: impl Iterator<Item = DVec3>,
     weight: impl Fn(DVec3) -> f64,

@@ -54,52 +54,62 @@ pub(crate) fn whole(
     pieces: &[u32],
     tolerance: f64,
 ) -> Option<Hypothesis> {
-    if let Some(found) = plane(view, pieces, tolerance) {
-        return Some(found);
-    }
-    let vertices = view.vertices_of(pieces);
-    let few = a_few(&vertices, MOST_POINTS);
-    let part = Part {
-        view,
-        pieces,
-        points: few.map(|&v| view.ground.positions[v as usize]).collect(),
-        facets: [view.facets(pieces), view.linked_facets(pieces)],
-        tolerance,
-    };
-    let axes = axes_beside(view, regions, pieces);
-    // An axis beside is known better than a few triangles can tell.
-    let known = |about: fn(DVec3, &[DVec3]) -> Option<Surface>| -> Vec<Surface> {
-        let surfaces = axes.iter().filter_map(|&axis| about(axis, &part.points));
-        surfaces.collect()
-    };
-    if let Some(found) = part.exactly_on(&known(cylinder_about)) {
-        return Some(found);
-    }
-    let cylinder = part.fitting(part.guesses(Kind::Cylinder));
-    let leans = |h: &Hypothesis| !axes.iter().any(|axis| is_along(*axis, h.surface.axis));
-    if part.determines(Kind::Cone) && cylinder.as_ref().is_none_or(leans) {
-        let cones = known(cone_about);
-        let cone = part.exactly_on(&cones).or_else(|| part.fitting(cones));
-        if cone.is_some() {
-            return cone;
-        }
-    }
-    cylinder
-        .or_else(|| part.fitting(part.guesses(Kind::Cone)))
-        .or_else(|| part.fitting(part.guesses(Kind::Sphere)))
-        .or_else(|| part.fitting(part.guesses(Kind::Torus)))
+    Whole::of(view, regions, pieces).within(tolerance)
 }
 
-/// A part and what surfaces are fitted to.
-struct Part<'a> {
+/// A part, what surfaces are fitted to, and the directions of what lies beside it.
+struct Whole<'a> {
     view: View<'a>,
     pieces: &'a [u32],
     points: Vec<DVec3>,
     facets: [Facets; 2],
-    tolerance: f64,
+    axes: Vec<DVec3>,
 }
 
-impl Part<'_> {
+impl<'a> Whole<'a> {
+    fn of(view: View<'a>, regions: &Regions, pieces: &'a [u32]) -> Self {
+        let vertices = view.vertices_of(pieces);
+        let few = a_few(&vertices, MOST_POINTS);
+        Self {
+            view,
+            pieces,
+            points: few.map(|&v| view.ground.positions[v as usize]).collect(),
+            facets: [view.facets(pieces), view.linked_facets(pieces)],
+            axes: axes_beside(view, regions, pieces),
+        }
+    }
+
+    /// The simplest surface that all vertices lie on within a tolerance.
+    fn within(&self, tolerance: f64) -> Option<Hypothesis> {
+        if let Some(found) = plane(self.view, self.pieces, tolerance) {
+            return Some(found);
+        }
+        if let Some(found) = self.exactly_on(&self.about_axes(cylinder_about), tolerance) {
+            return Some(found);
+        }
+        let guessed = |kind| self.fitting(self.guesses(kind), tolerance);
+        let cylinder = guessed(Kind::Cylinder);
+        let leans = |h: &Hypothesis| !self.axes.iter().any(|axis| is_along(*axis, h.surface.axis));
+        if self.determines(Kind::Cone) && cylinder.as_ref().is_none_or(leans) {
+            let cones = self.about_axes(cone_about);
+            let cone = self.exactly_on(&cones, tolerance);
+            let cone = cone.or_else(|| self.fitting(cones, tolerance));
+            if cone.is_some() {
+                return cone;
+            }
+        }
+        cylinder
+            .or_else(|| guessed(Kind::Cone))
+            .or_else(|| guessed(Kind::Sphere))
+            .or_else(|| guessed(Kind::Torus))
+    }
+
+    /// Surfaces about the axes beside: an axis there is known better than a few triangles can tell.
+    fn about_axes(&self, about: fn(DVec3, &[DVec3]) -> Option<Surface>) -> Vec<Surface> {
+        let axes = self.axes.iter();
+        axes.filter_map(|&axis| about(axis, &self.points)).collect()
+    }
+
     /// Has it more vertices than a surface of a kind has degrees of freedom?
     fn determines(&self, kind: Kind) -> bool {
         self.points.len() > kind.degrees_of_freedom()
@@ -113,27 +123,23 @@ impl Part<'_> {
     }
 
     /// The first of some surfaces that all of it lies on once it is fitted.
-    fn fitting(&self, from: Vec<Surface>) -> Option<Hypothesis> {
-        let fitted = |guess| refine_patiently(guess, &self.points, self.tolerance);
+    fn fitting(&self, from: Vec<Surface>, tolerance: f64) -> Option<Hypothesis> {
+        let fitted = |guess| refine_patiently(guess, &self.points, tolerance);
         from.into_iter()
-            .find_map(|guess| self.on(fitted(guess)?.surface))
+            .find_map(|guess| self.on(fitted(guess)?.surface, tolerance))
     }
 
     /// The first of some surfaces that all of it lies on exactly, as it is.
-    fn exactly_on(&self, surfaces: &[Surface]) -> Option<Hypothesis> {
+    fn exactly_on(&self, surfaces: &[Surface], tolerance: f64) -> Option<Hypothesis> {
         let exact = |s: &&Surface| s.rms(&self.points) <= self.view.ground.precision;
         let known = surfaces.iter().filter(|s| self.determines(s.kind));
-        known.filter(exact).find_map(|&surface| self.on(surface))
+        let mut exact = known.filter(exact);
+        exact.find_map(|&surface| self.on(surface, tolerance))
     }
 
     /// All of it on a surface, if it lies there.
-    fn on(&self, surface: Surface) -> Option<Hypothesis> {
-        let Self {
-            view,
-            pieces,
-            tolerance,
-            ..
-        } = *self;
+    fn on(&self, surface: Surface, tolerance: f64) -> Option<Hypothesis> {
+        let Self { view, pieces, .. } = *self;
         let &first = pieces.first()?;
         let at = surface.gradient(view.pieces.centroids[first as usize]);
         let sign = at.dot(view.pieces.normals[first as usize]).signum();
@@ -156,8 +162,9 @@ pub(crate) fn told(
     [exactly, nearly]: [f64; 2],
 ) -> Option<Hypothesis> {
     let believed = |h: &Hypothesis| h.strong && h.evidence >= least_evidence(1, h.surface.kind);
-    whole(view, regions, pieces, exactly)
-        .or_else(|| whole(view, regions, pieces, nearly).filter(believed))
+    let all = Whole::of(view, regions, pieces);
+    all.within(exactly)
+        .or_else(|| all.within(nearly).filter(believed))
 }
 
 /// Directions of the surfaces beside pieces, over walls too: chamfers are about the axes of what they end.

@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use glam::DVec3;
 
 use crate::ground::Ground;
-use crate::quadric;
+use crate::heights::{self, quadric};
 
 /// How far a side reaches from its edge, in steps over edges.
 const STEPS: usize = 3;
@@ -76,7 +76,8 @@ impl CreaseAngles<'_> {
             .map(|x| x.truncate().length())
             .fold(0.0, f64::max);
         let near = |x: DVec3| 1.0 / (0.05 + x.truncate().length_squared());
-        quadric::fit(local.iter().map(|&x| x / radius), near).map(|q| q[2])
+        let within = local.iter().map(|&x| x / radius);
+        heights::fit(quadric, within, near).map(|q| q[2])
     }
 
     /// Vertices of the faces of a side, nearest first by steps.

@@ -84,6 +84,19 @@ pub(crate) fn parts(view: View, regions: &Regions, tolerance: f64) -> Parts {
     Parts { of_piece, forms }
 }
 
+/// All pieces as free forms, one between walls.
+pub(crate) fn free(view: View) -> Parts {
+    let mut sets = Sets::new(view.pieces.count());
+    for link in view.pieces.links.iter().filter(|link| !link.wall) {
+        sets.unite(link.pieces[0], link.pieces[1]);
+    }
+    let (of_piece, count) = sets.numbered();
+    Parts {
+        of_piece,
+        forms: vec![Form::Free; count],
+    }
+}
+
 /// Is an unowned piece a plane of its own?
 fn is_plane(view: View, regions: &Regions, piece: u32, tolerance: f64) -> bool {
     let pieces = view.pieces;

@@ -103,9 +103,10 @@ impl<'s, 'a> Scout<'s, 'a> {
             if !self.is_loosest() {
                 self.on_triples();
             }
-            let strip = self.soil.around.strip(self.seed, self.soil.rung);
-            let look = Look::along(self.soil.view, &strip);
-            self.attempt_all([Kind::Cylinder, Kind::Cone], look);
+            for strip in self.soil.around.strips(self.seed, self.soil.rung) {
+                let look = Look::along(self.soil.view, &strip);
+                self.attempt_all([Kind::Cylinder, Kind::Cone], look);
+            }
         }
         let [on_stars, on_rings] = [Way::Stars, Way::Rings].map(|way| ways.contains(&way));
         if !on_stars && !on_rings {

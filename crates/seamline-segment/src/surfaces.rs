@@ -13,7 +13,7 @@ use seamline_ecs::{
     Stage, StageSystems,
 };
 use seamline_mesh::{Mesh, Topology};
-use seamline_primitives::{Fitted, Found, Kind, find};
+use seamline_primitives::{Fitted, Found, Kind, LEAST_EXACT_OF_NOISY, find};
 use serde::{Deserialize, Serialize};
 
 use crate::grow::{Grown, mean_curvatures};
@@ -26,13 +26,11 @@ pub struct SurfaceSettings {
     /// asked: so not by default where a classifier other than the default one is chosen. In `rectify`: are labels held
     /// against them where their boundaries are rough?
     pub enabled: bool,
-    /// Share of the area that must lie exactly on surfaces for the patches to follow from them; below it
-    /// (noise, scans, natural shapes) curvature leads. The least of the bench is .06, a
-    /// loft between two flat ends; a coil spring of one spline has less, scans have 0.
+    /// Share of the area that must lie exactly on surfaces for the patches to follow from them; below it curvature leads
+    /// (noise, scans, natural shapes), unless the vertices lie on smooth free forms. The least of the bench is .06, a
+    /// loft between two flat ends; a coil spring of one spline has .006, scans have 0.
     pub least_exact_share: f64,
-    /// The same share where vertices are noisy, of what lies on surfaces as exactly as the noise allows. Natural
-    /// shapes have .02 to .11, for the noise is guessed from them; of the bench's fine and uniform meshes with
-    /// noise of .1 % of their mean edge the least has .24.
+    /// The same share where vertices are noisy, of what lies on surfaces as exactly as the noise allows.
     pub least_exact_share_of_noisy: f64,
 }
 
@@ -42,8 +40,8 @@ impl StepSettings for SurfaceSettings {
     fn defaults(profile: Profile) -> Self {
         Self {
             enabled: profile == Profile::Cad,
-            least_exact_share: 0.05,
-            least_exact_share_of_noisy: 0.15,
+            least_exact_share: 0.005,
+            least_exact_share_of_noisy: LEAST_EXACT_OF_NOISY,
         }
     }
 
@@ -69,7 +67,7 @@ impl SurfaceSettings {
         } else {
             self.least_exact_share
         };
-        found.exact_share >= least
+        found.smooth || found.exact_share >= least
     }
 }
 

@@ -31,6 +31,8 @@ const AS_STRAIGHT_DEG: f64 = 0.2;
 /// more, those of swept tubes and many a border about .5. With .5 a filleted wave loses borders (ARI .001 less over 132
 /// meshes), with .6 a hull is cut (.0002 less over 229).
 const IN_ROWS: f64 = 0.55;
+/// Most edges at a vertex of a row: beside a hub lies its whole fan, which would be gone over for each of its chains.
+const LARGEST_FAN: usize = 64;
 /// How often chains are gone through again because new curves end them, so that the whole is linear in the edges. No part
 /// of 615 meshes took more than 6.
 const MOST_ROUNDS: usize = 16;
@@ -260,7 +262,9 @@ impl<'a> Chains<'a> {
         let straight = AS_STRAIGHT_DEG + chain.most_turn();
         let ends = |&edge: &u32| self.topology.edge_vertices[edge as usize];
         let on: HashSet<u32> = chain.edges.iter().flat_map(ends).collect();
-        let inside = on.iter().filter(|&&vertex| !self.is_at_border(vertex));
+        let fan = |vertex: u32| self.topology.vertex_edges.row(vertex as usize).len();
+        let in_rows = |&&vertex: &&u32| !self.is_at_border(vertex) && fan(vertex) <= LARGEST_FAN;
+        let inside = on.iter().filter(in_rows);
         let beside: HashSet<u32> = inside
             .flat_map(|&vertex| self.around(vertex))
             .map(|(_, far)| far)

@@ -30,6 +30,6 @@ pub(crate) fn is_noise(ground: Ground) -> bool {
     off.sort_unstable_by(f64::total_cmp);
     let nearest = off[(NEAREST * off.len() as f64) as usize];
     let noise = ground.noise.min(nearest / OFF_BY);
-    let hardly = off.partition_point(|&off| off < HARDLY_OFF * noise);
+    let hardly = off.partition_point(|&off| off <= HARDLY_OFF * noise);
     (hardly as f64) < TOO_MANY * off.len() as f64
 }

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """CAD parts with ground truth, in the format of the bench.
 
-    make_parts.py [--series 1|2|3|4|5] [--out models] [--only NAME ...] [--variants coarse fine uniform]
+    make_parts.py [--series 1|2|3|4|5|6] [--out models] [--only NAME ...] [--variants coarse fine uniform]
 
 Exit status: 0 all made, 1 some part or mesh is not usable; each is named with its reason, the others are made.
 """

@@ -1,7 +1,7 @@
 """The register of parts: what builds each, which meshes it gets, how it lies and how large it is."""
 
-SERIES = {1: {}, 2: {}, 3: {}, 4: {}, 5: {}}
-FOLDERS = {"second": 2, "third": 3, "fourth": 4, "fifth": 5}
+SERIES = {1: {}, 2: {}, 3: {}, 4: {}, 5: {}, 6: {}}
+FOLDERS = {"second": 2, "third": 3, "fourth": 4, "fifth": 5, "sixth": 6}
 
 
 def part(uniform=True, turn=False, offset=0.0, scale=1.0):

@@ -20,7 +20,8 @@ const MOST_STARS: usize = 8;
 /// Pieces of a strip on each rung of the ladder of tolerances: the looser, the larger a surface must be to be believed.
 const STRIP: [usize; 3] = [8, 8, 24];
 
-/// Pieces whose areas differ by more than this factor are of different sizes.
+/// Pieces whose areas differ by more than this factor are of different sizes: those of a straight wire and of its bend
+/// differ by a hundred and more.
 const ALIKE: f64 = 10.0;
 
 /// Square of a piece's length over its area from which it is far longer than wide: triangles from rim to rim of a long
@@ -122,10 +123,15 @@ impl<'a> Around<'a> {
     fn is_long(&self, piece: u32) -> bool {
         let positions = self.view.ground.positions;
         let vertices = self.view.pieces.vertices.row(piece);
-        let apart = vertices
-            .iter()
-            .map(|&v| positions[v as usize].distance_squared(positions[vertices[0] as usize]));
-        apart.fold(0.0, f64::max) > LONG * self.view.pieces.areas[piece as usize]
+        let squares = |from: u32| {
+            let square =
+                move |&v: &u32| positions[v as usize].distance_squared(positions[from as usize]);
+            vertices.iter().map(move |v| (square(v), *v))
+        };
+        let farthest = |from: u32| squares(from).max_by(|a, b| a.0.total_cmp(&b.0));
+        // From one end to the other, whichever vertex comes first.
+        let length = farthest(vertices[0]).and_then(|(_, end)| farthest(end));
+        length.is_some_and(|(square, _)| square > LONG * self.view.pieces.areas[piece as usize])
     }
 
     /// The strip among pieces that may be of it.

@@ -182,6 +182,8 @@ pub fn find(positions: &[DVec3], topology: &Topology, farthest: f64) -> Found {
         let noisy = through_noise(ground);
         let explains = |noisy: &Found| noisy.exact_share >= LEAST_EXACT_OF_NOISY;
         found = if !noisy.as_ref().is_some_and(explains) && smooth::is_smooth(ground) {
+            // Either is as large as what comes.
+            drop((noisy, found));
             free_forms(ground)
         } else {
             noisy.unwrap_or(found)

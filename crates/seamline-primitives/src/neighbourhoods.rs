@@ -11,9 +11,10 @@ const MOST_ASKED: usize = 2000;
 /// Fewest that say something.
 const FEWEST_ASKED: usize = 50;
 /// Vertices a height field goes through, more than it has terms.
-const MORE_THAN_FREE: usize = 8;
-/// Most edges at the neighbours of a vertex, all told: those of a hub are a whole fan, and so are theirs.
-const MOST_ABOUT: usize = 200;
+const LEAST_REST: usize = 8;
+/// Most edges at the vertices reached before the next ring, all told; two rings of a regular mesh have 114. Those of a hub
+/// are a whole fan.
+const MOST_EDGES: usize = 200;
 
 /// A vertex with those about it.
 pub(crate) struct Neighbourhood {
@@ -51,7 +52,7 @@ impl Neighbourhood {
         let valence = |v: u32| topology.vertex_edges.row(v as usize).len();
         let mut about = vec![vertex];
         for _ in 0..rings {
-            if about.iter().map(|&v| valence(v)).sum::<usize>() > MOST_ABOUT {
+            if about.iter().map(|&v| valence(v)).sum::<usize>() > MOST_EDGES {
                 return None;
             }
             let next: Vec<u32> = about.iter().copied().flat_map(around).collect();
@@ -81,7 +82,7 @@ impl Neighbourhood {
     /// its terms, and where nothing can be solved.
     pub fn off<const N: usize>(&self, terms: Terms<N>) -> Option<f64> {
         let freedom = self.local.len().checked_sub(N)?;
-        if freedom < MORE_THAN_FREE {
+        if freedom < LEAST_REST {
             return None;
         }
         let field = heights::fit(terms, self.local.iter().copied(), |_| 1.0)?;

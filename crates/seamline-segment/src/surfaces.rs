@@ -27,10 +27,12 @@ pub struct SurfaceSettings {
     /// against them where their boundaries are rough?
     pub enabled: bool,
     /// Share of the area that must lie exactly on surfaces for the patches to follow from them; below it curvature leads
-    /// (noise, scans, natural shapes), unless the vertices lie on smooth free forms. The least of the bench is .06, a
-    /// loft between two flat ends; a coil spring of one spline has .006, scans have 0.
+    /// (noise, scans, natural shapes). The least of the bench is .06, a loft between two flat ends; a coil spring of one
+    /// spline has less, scans have 0. Where all vertices lie on smooth free forms and next to nothing (.005) on
+    /// surfaces, the patches are these forms, whatever this is.
     pub least_exact_share: f64,
-    /// The same share where vertices are noisy, of what lies on surfaces as exactly as the noise allows.
+    /// The same share where vertices are noisy, of what lies on surfaces as exactly as the noise allows. Where that is
+    /// below .15, smooth free forms go first, whatever this is.
     pub least_exact_share_of_noisy: f64,
 }
 
@@ -40,7 +42,7 @@ impl StepSettings for SurfaceSettings {
     fn defaults(profile: Profile) -> Self {
         Self {
             enabled: profile == Profile::Cad,
-            least_exact_share: 0.005,
+            least_exact_share: 0.05,
             least_exact_share_of_noisy: LEAST_EXACT_OF_NOISY,
         }
     }

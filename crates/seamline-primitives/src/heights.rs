@@ -71,3 +71,27 @@ pub(crate) fn above<const N: usize>(terms: Terms<N>, factors: &[f64; N], x: DVec
     let heights = factors.iter().zip(terms(x)).map(|(f, t)| f * t);
     x.z - heights.sum::<f64>()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// What points of a height field of degree four are off the nearest of some terms, at most.
+    fn most_off<const N: usize>(terms: Terms<N>) -> f64 {
+        let at = |i: i32| f64::from(i) / 3.0;
+        let grid = (-3..=3).flat_map(|i| (-3..=3).map(move |j| [at(i), at(j)]));
+        let height = |[x, y]: [f64; 2]| 0.3 + x - x * y + 0.5 * y * y * y + 0.2 * x * x * y * y;
+        let points: Vec<DVec3> = grid
+            .map(|[x, y]| DVec3::new(x, y, height([x, y])))
+            .collect();
+        let factors = fit(terms, points.iter().copied(), |_| 1.0).expect("there is one");
+        let off = points.iter().map(|&x| above(terms, &factors, x).abs());
+        off.fold(0.0, f64::max)
+    }
+
+    #[test]
+    fn a_quartic_goes_through_a_field_of_degree_four_and_a_quadric_does_not() {
+        assert!(most_off(quartic) < 1e-6);
+        assert!(most_off(quadric) > 0.1);
+    }
+}

@@ -22,7 +22,7 @@ const STRIP: [usize; 3] = [8, 8, 24];
 
 /// Pieces whose areas differ by more than this factor are of different sizes: those of a straight wire and of its bend
 /// differ by a hundred and more.
-const ALIKE: f64 = 10.0;
+const ONE_SIZE: f64 = 10.0;
 
 /// Square of a piece's length over its area from which it is far longer than wide: triangles from rim to rim of a long
 /// cylinder have some hundreds. With 20 `cable_cover-fine` of the bench takes a tenth longer, and scores are as before.
@@ -108,15 +108,17 @@ impl<'a> Around<'a> {
     /// which every star holds pieces beyond the rims. Where that leads to pieces of quite another size, as over the rim
     /// of a long cylinder to a finely divided bend, the strip of those of the seed's size, too.
     pub fn strips(&self, seed: u32, rung: usize) -> Vec<Vec<u32>> {
-        let areas = &self.view.pieces.areas;
-        let alike = |p: u32| {
-            let larger = areas[p as usize] / areas[seed as usize];
-            (1.0 / ALIKE..=ALIKE).contains(&larger)
-        };
+        let alike = |p: u32| self.are_alike(p, seed, ONE_SIZE);
         let any = self.strip(seed, rung, |_| true);
         let own = (self.is_long(seed) && !any.iter().all(|&p| alike(p)))
             .then(|| self.strip(seed, rung, alike));
         [any].into_iter().chain(own).collect()
+    }
+
+    /// Do the areas of two pieces differ by no more than a factor?
+    pub fn are_alike(&self, one: u32, other: u32, factor: f64) -> bool {
+        let [one, other] = [one, other].map(|p| self.view.pieces.areas[p as usize]);
+        (1.0 / factor..=factor).contains(&(one / other))
     }
 
     /// Is a piece far longer than wide?

@@ -303,10 +303,10 @@ fn levels(values: impl Iterator<Item = f64>, apart: f64, share: f64) -> Vec<usiz
     on_each
 }
 
-/// Share of the vertices that may be off rows, of fewer than 50 none: the seam of a surface of revolution is divided more finely than its rows
-/// are apart, and the row of one vertex would make a torus of three rings, through which there always is one, a proved
-/// one. With none of them vases and bulbs come out in bands (ARI .003 less over 132 meshes); at .05 and .1 narrow true
-/// fillets are lost.
+/// Share of the vertices that may be off rows, of fewer than 50 none: the seam of a surface of revolution is divided
+/// more finely than its rows are apart, and the row of one vertex would make a torus of three rings, through which
+/// there always is one, a proved one. With none of them vases and bulbs come out in bands (ARI .003 less over 132
+/// meshes); at .05 and .1 narrow true fillets are lost.
 const STRAYS: f64 = 0.02;
 /// Share of the range of heights that two levels are apart at least.
 const LEVEL_SHARE: f64 = 0.05;

@@ -289,7 +289,7 @@ fn free_forms(ground: Ground) -> Found {
     let view = ground.seen(&pieces);
     Found {
         smooth: true,
-        ..cut(view, &regions, parts::free(view), ladder(ground))
+        ..cut(view, &regions, parts::free(view, &regions), ladder(ground))
     }
 }
 

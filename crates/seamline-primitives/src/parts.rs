@@ -57,6 +57,17 @@ pub(crate) fn parts(view: View, regions: &Regions, tolerance: f64) -> Parts {
             regions.owner[piece as usize] == NONE && is_plane(view, regions, piece, tolerance)
         })
         .collect();
+    grouped(view, regions, &planes)
+}
+
+/// All pieces as free forms, one between walls; no region owns any.
+pub(crate) fn free(view: View, regions: &Regions) -> Parts {
+    grouped(view, regions, &vec![false; view.pieces.count()])
+}
+
+/// A part for each region and for each of the pieces that are planes, and the rest united over what is no wall.
+fn grouped(view: View, regions: &Regions, planes: &[bool]) -> Parts {
+    let pieces = view.pieces;
     let mut sets = Sets::new(pieces.count());
     for region in regions.alive() {
         let own = &regions.all[region as usize].pieces;
@@ -82,19 +93,6 @@ pub(crate) fn parts(view: View, regions: &Regions, tolerance: f64) -> Parts {
         }
     }
     Parts { of_piece, forms }
-}
-
-/// All pieces as free forms, one between walls.
-pub(crate) fn free(view: View) -> Parts {
-    let mut sets = Sets::new(view.pieces.count());
-    for link in view.pieces.links.iter().filter(|link| !link.wall) {
-        sets.unite(link.pieces[0], link.pieces[1]);
-    }
-    let (of_piece, count) = sets.numbered();
-    Parts {
-        of_piece,
-        forms: vec![Form::Free; count],
-    }
 }
 
 /// Is an unowned piece a plane of its own?

@@ -77,10 +77,8 @@ impl Seeds {
     /// Is a piece to be a seed? Beside a seed that was in vain another of its size rarely is not, and free forms
     /// are all such.
     fn wants(&self, around: &Around, seed: u32) -> bool {
-        let area = |p: u32| around.view.pieces.areas[p as usize];
-        let alike = |p: u32| (1.0 / ALIKE..=ALIKE).contains(&(area(p) / area(seed)));
-        let mut neighbours = around.neighbours(seed);
-        !self.covered[seed as usize] && !neighbours.any(|p| self.failed[p as usize] && alike(p))
+        let tells = |p: u32| self.failed[p as usize] && around.are_alike(p, seed, ALIKE);
+        !self.covered[seed as usize] && !around.neighbours(seed).any(tells)
     }
 
     /// In what ways surfaces are looked for about a seed, the `turn`th.

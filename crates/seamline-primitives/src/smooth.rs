@@ -18,8 +18,8 @@ const LEFT: f64 = 0.27;
 /// height field. The rims of a cylinder of 206 vertices, along which quartics leave little of noise, have .7.
 const LEAST_COS: f64 = 0.9;
 
-/// Do vertices lie on smooth surfaces? Too few to tell do not. The half of all vertices decides, also of several bodies in
-/// one mesh.
+/// Do vertices lie on smooth surfaces? Too few to tell do not. Half of all vertices decides, also of several bodies in one
+/// mesh.
 pub(crate) fn is_smooth(ground: Ground) -> bool {
     let left = of_some(ground, RINGS, |about| {
         if about.turn_cos < LEAST_COS {

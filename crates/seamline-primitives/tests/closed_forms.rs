@@ -1,5 +1,7 @@
 //! Surfaces of shapes in closed form.
 
+mod shaken;
+
 use std::f64::consts::{FRAC_PI_2, PI};
 
 use glam::{DQuat, DVec3, dvec2};
@@ -7,6 +9,7 @@ use proptest::prelude::*;
 use seamline_mesh::shapes::{self, Diagonals, Shape};
 use seamline_mesh::{Topology, weld};
 use seamline_primitives::{Fitted, Found, Kind, find};
+use shaken::found_shaken;
 
 fn found(shape: &Shape) -> (Found, Vec<u32>) {
     let mesh = weld(shape.polygons(), 0.0);
@@ -167,20 +170,8 @@ fn a_mesh_without_extent_is_cut_all_the_same() {
 /// A smooth cube whose vertices are moved by up to half of `width` along each axis, with so many facets across each
 /// rounding.
 fn noisy_cube(width: f64, round: usize) -> (Found, Vec<u32>) {
-    let mut random = 7u64;
-    let mut unit = || {
-        random = random
-            .wrapping_mul(6364136223846793005)
-            .wrapping_add(1442695040888963407);
-        (random >> 33) as f64 / f64::from(1u32 << 31) - 0.5
-    };
     let shape = shapes::smooth_cube(0.2, 12, round);
-    let mut mesh = weld(shape.polygons(), 0.0);
-    for x in &mut mesh.polygons.positions {
-        *x += DVec3::new(unit(), unit(), unit()) * width;
-    }
-    let topology = Topology::build(mesh.positions().len(), mesh.triangles.clone());
-    (find(mesh.positions(), &topology, 0.0), shape.patches)
+    (found_shaken(&shape, width), shape.patches)
 }
 
 #[test]

@@ -1,29 +1,19 @@
 //! Free forms in closed form.
 
+mod shaken;
+
 use std::f64::consts::TAU;
 
 use glam::{DQuat, DVec3};
-use seamline_mesh::shapes::{self, Shape};
-use seamline_mesh::{Topology, weld};
+use seamline_mesh::Topology;
+use seamline_mesh::shapes;
 use seamline_primitives::{Found, Kind, find};
+use shaken::found_shaken;
 
 /// An egg, its vertices moved along each axis by up to half of `width`.
 fn egg(levels: usize, width: f64) -> Found {
     let stretched = |x: DVec3| x * DVec3::new(1.0, 1.1, 1.3 + 0.2 * x.z - 0.1 * x.z * x.z);
-    let shape: Shape = shapes::icosphere(levels).map(stretched);
-    let mut mesh = weld(shape.polygons(), 0.0);
-    let mut random = 7u64;
-    let mut unit = || {
-        random = random
-            .wrapping_mul(6364136223846793005)
-            .wrapping_add(1442695040888963407);
-        (random >> 33) as f64 / f64::from(1u32 << 31) - 0.5
-    };
-    for x in &mut mesh.polygons.positions {
-        *x += DVec3::new(unit(), unit(), unit()) * width;
-    }
-    let topology = Topology::build(mesh.positions().len(), mesh.triangles.clone());
-    find(mesh.positions(), &topology, 0.0)
+    found_shaken(&shapes::icosphere(levels).map(stretched), width)
 }
 
 #[test]

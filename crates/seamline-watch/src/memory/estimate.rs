@@ -19,9 +19,9 @@
 //!
 //! All that with the allocator of the C library and without surfaces. With surfaces and the program's own allocator,
 //! which gives pages back a moment later (the same 12 MB less): 1,349, 1,105 and 1,055 for the three flanges by `cad`,
-//! 1,751 for 72,156 triangles of free form and 3,490 for 14,586; 1,320 for one smooth form of 474,000 triangles. So a
-//! mesh takes some 35 MB besides, however small it is; they come out of the quarter of the limit that is left free
-//! (`bounded_memory`).
+//! 1,751 for 72,156 triangles of free form and 3,490 for 14,586; 1,510 for an ellipsoid of 327,680 (an icosahedron
+//! each of whose triangles is split in four seven times). So a mesh takes some 35 MB besides, however small it is, and
+//! one large free form a quarter more; both come out of the quarter of the limit that is left free (`bounded_memory`).
 //!
 //! The format does not matter: the bytes of the file are gone before the peak. 530 bytes a triangle and 700
 //! a vertex give the flanges and the two last rows of `cad` within 7 percent. Cubes and noise, whose patches
